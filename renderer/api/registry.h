@@ -1,0 +1,31 @@
+// The families and integrators that a scene can name. The host owns one Registry and hands it to every plugin;
+// nothing registers itself.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/api/integrator.h"
+#include "renderer/api/surface.h"
+
+namespace rondure {
+
+class Registry {
+ public:
+  // Throws std::runtime_error when the name is empty or taken, or the factory is null.
+  void add(SurfaceFamily family);
+  void add(IntegratorFactory factory);
+
+  const SurfaceFamily* family(std::string_view name) const;  // null when unknown
+  const IntegratorFactory* integrator(std::string_view name) const;
+  std::vector<std::string> family_names() const;  // sorted
+  std::vector<std::string> integrator_names() const;
+
+ private:
+  std::map<std::string, SurfaceFamily, std::less<>> families_;
+  std::map<std::string, IntegratorFactory, std::less<>> integrators_;
+};
+
+}  // namespace rondure

@@ -1,0 +1,38 @@
+// What a patch family is: a name, its documented parameters, and a function from parameters to control nets.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/api/params.h"
+#include "renderer/api/patch.h"
+
+namespace rondure {
+
+// One surface in its own frame. Families build about the origin at unit size; the scene applies radius, centre
+// and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
+struct Surface {
+  std::vector<Net> patches;
+  dvec3 origin{0.0};                // world position of the frame's zero
+  std::optional<dmat3> ellipsoid;   // set, and `patches` empty: the analytic image of the unit sphere under it
+  bool closed = false;              // bounds a solid: every line meets it an even number of times
+};
+
+// One documented parameter, for `rondure describe`. `type` is prose such as "number in (-1, 1)".
+struct ParameterDoc {
+  std::string name;
+  std::string type;
+  std::string default_value;  // as it would stand in a scene; empty when the parameter is required
+  std::string meaning;
+};
+
+struct SurfaceFamily {
+  std::string name;     // the scene's "type", and the stem of the file that implements it
+  std::string summary;  // one line, with source (author, year, section)
+  std::vector<ParameterDoc> parameters;
+  std::function<Surface(Params&)> build;  // throws SceneError through Params
+};
+
+}  // namespace rondure

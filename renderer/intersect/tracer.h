@@ -1,0 +1,52 @@
+// Ray queries against a set of surfaces: the one door between the scene and the solvers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/api/surface.h"
+#include "renderer/intersect/ray.h"
+
+namespace rondure {
+
+enum class Solver { newton, clipping };
+
+// A surface and the solver that meets it.
+struct TracedSurface {
+  Surface surface;
+  Solver solver = Solver::newton;
+};
+
+struct TracerStatistics {
+  std::size_t surfaces = 0, patches = 0, leaves = 0;
+  std::size_t bytes = 0;  // nets, leaves and the acceleration structure
+};
+
+// Immutable once built; every query is const, thread-safe and noexcept.
+class Tracer {
+ public:
+  // Throws std::runtime_error naming surface and patch when a net cannot be bounded (non-finite, or weights that
+  // change sign after refinement).
+  explicit Tracer(std::vector<TracedSurface> surfaces);
+  ~Tracer();
+  Tracer(Tracer&&) noexcept;
+  Tracer& operator=(Tracer&&) noexcept;
+
+  Hit closest(const Ray& ray) const noexcept;
+  bool occluded(const Ray& ray) const noexcept;
+  // Every hit in order of t; a point on the seam of two patches of one surface is reported once.
+  std::vector<Hit> all(const Ray& ray) const;
+
+  const std::vector<TracedSurface>& surfaces() const;
+  // Centre and radius of a sphere that contains every surface; radius 0 and centre 0 when there are none.
+  dvec3 bounding_center() const;
+  double bounding_radius() const;
+  TracerStatistics statistics() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace rondure

@@ -1,0 +1,42 @@
+// A scene, read and checked: everything that a render needs, as values.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/api/integrator.h"
+#include "renderer/camera/camera.h"
+#include "renderer/film/film_settings.h"
+#include "renderer/intersect/tracer.h"
+#include "renderer/shading/light.h"
+#include "renderer/shading/material.h"
+
+namespace rondure {
+
+struct SamplingSettings {
+  int spp = 64;
+  std::uint64_t seed = 1;
+};
+
+struct SceneObject {
+  std::string name;  // "objects[3]" unless the scene names it
+  std::string type;
+  TracedSurface traced;
+  int material = 0;  // index into Scene::materials
+};
+
+struct Scene {
+  std::string path;
+  std::uint64_t hash = 0;  // of the file's bytes and of every override
+  Camera camera;
+  FilmSettings film;
+  SamplingSettings sampling;
+  std::string integrator_name;
+  std::unique_ptr<Integrator> integrator;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  std::vector<SceneObject> objects;
+};
+
+}  // namespace rondure
