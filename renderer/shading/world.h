@@ -1,0 +1,67 @@
+// What an integrator may ask: the surfaces, their materials, and all light, with its sampling.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/intersect/tracer.h"
+#include "renderer/shading/light.h"
+#include "renderer/shading/material.h"
+
+namespace rondure {
+
+// One direction toward light, as seen from a point.
+struct LightSample {
+  dvec3 direction{0.0};  // unit, from the point to the light
+  double distance = std::numeric_limits<double>::infinity();
+  dvec3 radiance{0.0};  // arriving if unoccluded; of a delta light: radiance integrated over its directions
+  double pdf = 0.0;  // per solid angle, choice of light included; of a delta light: the choice's probability
+  bool delta = false;  // point or directional: no scattering sample can meet it
+  int surface = -1;    // the emissive surface, or -1
+};
+
+class World {
+ public:
+  // `material_of_surface[i]` is the index of the material of the tracer's surface i. The tracer must outlive
+  // the world. Reads environment images; throws std::runtime_error that names the file.
+  World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
+        std::vector<int> material_of_surface);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const Tracer& tracer() const { return *tracer_; }
+  const Material& material(const Hit& hit) const {
+    return materials_[static_cast<std::size_t>(material_of_surface_[static_cast<std::size_t>(hit.surface)])];
+  }
+
+  // Radiance that leaves the hit toward `out` (unit) by emission.
+  dvec3 emitted(const Hit& hit, const dvec3& out) const;
+  // Radiance arriving from infinity against `direction` (unit, the way that the ray goes).
+  dvec3 background(const dvec3& direction) const;
+
+  // A light sample for a surface point; pdf 0 when there is no light or the sample came to nothing.
+  LightSample sample_light(const dvec3& point, double choice, dvec2 uv) const;
+  // Density, per solid angle at `point`, with which sample_light draws the direction of `hit` or of the
+  // background.
+  double light_pdf(const dvec3& point, const Hit& hit) const;
+  double background_pdf(const dvec3& direction) const;
+  // Whether nothing stands between a hit and the light of a sample that was drawn for it.
+  bool visible(const Hit& from, const LightSample& sample) const;
+
+ private:
+  struct Lights;
+
+  const Tracer* tracer_;
+  std::vector<Material> materials_;
+  std::vector<int> material_of_surface_;
+  std::unique_ptr<Lights> lights_;
+};
+
+// The ray that leaves a hit, with its own root at t = 0 left out.
+inline Ray spawn(const Hit& from, const dvec3& direction,
+                 double t_max = std::numeric_limits<double>::infinity()) {
+  return Ray{from.point, direction, 0.0, t_max, RayStart{from.surface, from.normal}};
+}
+
+}  // namespace rondure
