@@ -1,0 +1,7 @@
+#include "renderer/plugin/builtin.h"
+
+namespace rondure {
+
+void register_builtins(Registry&) {}
+
+}  // namespace rondure

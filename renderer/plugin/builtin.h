@@ -1,0 +1,10 @@
+// The families and integrators that are compiled in.
+#pragma once
+
+#include "renderer/api/registry.h"
+
+namespace rondure {
+
+void register_builtins(Registry& registry);
+
+}  // namespace rondure
