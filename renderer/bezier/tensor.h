@@ -1,0 +1,182 @@
+// Tensor-product Bernstein polynomials of degree (m, n), over any coefficient type that forms linear combinations
+// (double, dvec2, dvec3, dvec4). Coefficient (i, j) stands at net[i * (n + 1) + j], i along u, j along v.
+//
+// The evaluators take the degrees as template arguments too; with `dynamic` they use the run-time ones, otherwise
+// every loop has a fixed count. Values are good to a few eps * max |net| on [0, 1]^2 and stay valid outside.
+#pragma once
+
+#include <algorithm>
+
+#include "renderer/bezier/bernstein.h"
+#include "renderer/bezier/curve.h"
+
+namespace rondure {
+
+template <class T>
+struct FirstOrder {
+  T value, du, dv;
+};
+
+template <class T>
+struct SecondOrder {
+  T value, du, dv, duu, duv, dvv;
+};
+
+template <int M = dynamic, int N = dynamic, class T>
+T tensor_value(const T* net, int m, int n, double u, double v) {
+  const int deg_u = M >= 0 ? M : m;
+  const int deg_v = N >= 0 ? N : n;
+  double bu[(M >= 0 ? M : max_degree) + 1];
+  double bv[(N >= 0 ? N : max_degree) + 1];
+  bernstein_values<M>(deg_u, u, bu);
+  bernstein_values<N>(deg_v, v, bv);
+  T sum(0.0);
+  for (int i = 0; i <= deg_u; ++i) {
+    const T* row = net + i * (deg_v + 1);
+    T r = bv[0] * row[0];
+    for (int j = 1; j <= deg_v; ++j) r += bv[j] * row[j];
+    sum += bu[i] * r;
+  }
+  return sum;
+}
+
+// The four sums over the corner sub-nets of degree (m - 1, n - 1) give value and derivatives at once: the last step
+// of de Casteljau's algorithm in both directions.
+template <int M = dynamic, int N = dynamic, class T>
+FirstOrder<T> tensor_first(const T* net, int m, int n, double u, double v) {
+  const int deg_u = M >= 0 ? M : m;
+  const int deg_v = N >= 0 ? N : n;
+  // A direction of degree 0 reads its only coefficient twice and multiplies the difference by 0.
+  const int lu = std::max(deg_u - 1, 0);
+  const int lv = std::max(deg_v - 1, 0);
+  const int step_u = std::min(deg_u, 1);
+  const int step_v = std::min(deg_v, 1);
+  double bu[(M >= 0 ? M : max_degree) + 1];
+  double bv[(N >= 0 ? N : max_degree) + 1];
+  bernstein_values<(M > 0 ? M - 1 : M)>(lu, u, bu);
+  bernstein_values<(N > 0 ? N - 1 : N)>(lv, v, bv);
+  T s00(0.0), s01(0.0), s10(0.0), s11(0.0);
+  for (int i = 0; i <= deg_u; ++i) {
+    const T* row = net + i * (deg_v + 1);
+    T low = bv[0] * row[0];
+    T high = bv[0] * row[step_v];
+    for (int j = 1; j <= lv; ++j) {
+      low += bv[j] * row[j];
+      high += bv[j] * row[j + step_v];
+    }
+    if (i <= lu) {
+      s00 += bu[i] * low;
+      s01 += bu[i] * high;
+    }
+    if (i >= step_u) {
+      s10 += bu[i - step_u] * low;
+      s11 += bu[i - step_u] * high;
+    }
+  }
+  const double su = 1.0 - u;
+  const double sv = 1.0 - v;
+  const T left = sv * s00 + v * s01;
+  const T right = sv * s10 + v * s11;
+  return {su * left + u * right, static_cast<double>(deg_u) * (right - left),
+          static_cast<double>(deg_v) * (su * (s01 - s00) + u * (s11 - s10))};
+}
+
+namespace detail {
+
+// Basis functions with their first and second derivatives.
+template <int N>
+struct BasisJet {
+  static constexpr int size = (N >= 0 ? N : max_degree) + 1;
+  double b[size], d[size], dd[size];
+
+  BasisJet(int n, double t) {
+    bernstein_values<N>(n, t, b);
+    double lower[size];
+    if (n > 0) bernstein_values<dynamic>(n - 1, t, lower);
+    for (int k = 0; k <= n; ++k) {
+      d[k] = n * ((k > 0 ? lower[k - 1] : 0.0) - (k < n ? lower[k] : 0.0));
+    }
+    if (n > 1) bernstein_values<dynamic>(n - 2, t, lower);
+    for (int k = 0; k <= n; ++k) {
+      if (n < 2) {
+        dd[k] = 0.0;
+        continue;
+      }
+      const double before = k > 1 ? lower[k - 2] : 0.0;
+      const double here = k > 0 && k < n ? lower[k - 1] : 0.0;
+      const double after = k < n - 1 ? lower[k] : 0.0;
+      dd[k] = n * (n - 1) * (before - 2.0 * here + after);
+    }
+  }
+};
+
+}  // namespace detail
+
+template <int M = dynamic, int N = dynamic, class T>
+SecondOrder<T> tensor_second(const T* net, int m, int n, double u, double v) {
+  const int deg_u = M >= 0 ? M : m;
+  const int deg_v = N >= 0 ? N : n;
+  const detail::BasisJet<M> bu(deg_u, u);
+  const detail::BasisJet<N> bv(deg_v, v);
+  SecondOrder<T> s{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
+  for (int i = 0; i <= deg_u; ++i) {
+    const T* row = net + i * (deg_v + 1);
+    T r = bv.b[0] * row[0];
+    T r1 = bv.d[0] * row[0];
+    T r2 = bv.dd[0] * row[0];
+    for (int j = 1; j <= deg_v; ++j) {
+      r += bv.b[j] * row[j];
+      r1 += bv.d[j] * row[j];
+      r2 += bv.dd[j] * row[j];
+    }
+    s.value += bu.b[i] * r;
+    s.du += bu.d[i] * r;
+    s.dv += bu.b[i] * r1;
+    s.duu += bu.dd[i] * r;
+    s.duv += bu.d[i] * r1;
+    s.dvv += bu.b[i] * r2;
+  }
+  return s;
+}
+
+// The same polynomial over [u0, u1] x [v0, v1], as a net over the unit square; the limits may lie anywhere and
+// in either order. Neighbours cut at the same parameter agree there bit for bit. `out` must not overlap `net`.
+template <class T>
+void tensor_restrict(const T* net, int m, int n, double u0, double u1, double v0, double v1, T* out) {
+  const int stride = n + 1;
+  for (int j = 0; j <= n; ++j) curve_restrict(net + j, m, stride, u0, u1, out + j, stride);
+  for (int i = 0; i <= m; ++i) curve_restrict(out + i * stride, n, 1, v0, v1, out + i * stride, 1);
+}
+
+// The halves u in [0, 1/2] and [1/2, 1], each over the unit square.
+template <class T>
+void tensor_halve_u(const T* net, int m, int n, T* low, T* high) {
+  const int stride = n + 1;
+  for (int j = 0; j <= n; ++j) curve_halve(net + j, m, stride, low + j, high + j, stride);
+}
+
+template <class T>
+void tensor_halve_v(const T* net, int m, int n, T* low, T* high) {
+  const int stride = n + 1;
+  for (int i = 0; i <= m; ++i) {
+    curve_halve(net + i * stride, n, 1, low + i * stride, high + i * stride, 1);
+  }
+}
+
+// d/du as a net of degree (m - 1, n), m >= 1.
+template <class T>
+void tensor_derivative_u(const T* net, int m, int n, T* out) {
+  for (int k = 0; k < m * (n + 1); ++k) out[k] = static_cast<double>(m) * (net[k + n + 1] - net[k]);
+}
+
+// d/dv as a net of degree (m, n - 1), n >= 1.
+template <class T>
+void tensor_derivative_v(const T* net, int m, int n, T* out) {
+  for (int i = 0; i <= m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      out[i * n + j] = static_cast<double>(n) * (net[i * (n + 1) + j + 1] - net[i * (n + 1) + j]);
+    }
+  }
+}
+
+}  // namespace rondure
