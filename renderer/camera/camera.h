@@ -37,7 +37,8 @@ Ray camera_ray(const Camera& camera, double aspect, dvec2 film, dvec2 lens);
 
 // In the convention of OpenEXR (column vectors here; the writer transposes): the camera looks along -z, y up.
 dmat4 world_to_camera(const Camera& camera);
-// x and y in [-1, 1] over the image, y up; z the distance along the view over the scene's unit (not clipped).
+// x and y in [-1, 1] over the image, y up. With d the distance along the view, z is d under an orthographic
+// camera and 1 - 1 / d under a perspective one: there are no clipping planes.
 dmat4 world_to_ndc(const Camera& camera, double aspect);
 
 // Reads the object at hand, "type" included, and finishes it.

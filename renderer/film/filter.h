@@ -2,7 +2,6 @@
 // neighbour's pixel, and crops need no margin.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "renderer/api/patch.h"
@@ -20,12 +19,13 @@ class Filter {
 
   // Offset from the pixel's centre, in pixels.
   dvec2 sample(dvec2 uv) const;
-  // One axis: the distribution function and the density, exact (for tests and for the table).
-  double density(double x) const;
+  // Distribution function of one axis, exact; `sample` inverts a table of it, linear between 1024 knots a
+  // side.
+  double cumulative(double x) const;
 
   FilterKind kind() const { return kind_; }
   double radius() const { return radius_; }
-  std::string name() const;
+  const char* name() const;
 
  private:
   FilterKind kind_;

@@ -26,19 +26,21 @@ class Sampler {
   // Two successive dimensions of one block.
   dvec2 next_2d();
 
-  // Go on from the first dimension of `number`-th block (0, 1, ...). Integrators give each path vertex a
-  // block, so that a branch that draws less at one vertex leaves the stratification of the next vertex alone.
+  // Go on from the first dimension of block `number`, below 2^20. Integrators give each path vertex a block,
+  // so that a vertex that draws less leaves the numbers of the next one alone. A block that runs out is
+  // continued in blocks beyond 2^20, never in the next vertex's.
   void start_block(int number);
 
  private:
-  std::uint64_t key_;           // of seed and pixel
-  std::uint32_t index_;         // the sample
-  std::uint32_t shuffled_ = 0;  // the sample's place in the present block
-  std::uint32_t block_key_ = 0;
-  int block_ = -1;
+  std::uint64_t key_;            // of seed and pixel
+  std::uint64_t block_key_ = 0;  // of key and block
+  std::uint32_t index_;          // the sample
+  std::uint32_t shuffled_ = 0;   // its place in the present block's order
+  int block_ = 0;
   int dimension_ = 0;  // inside the block
 
   double draw();
+  void make_room(int count);
 };
 
 }  // namespace rondure

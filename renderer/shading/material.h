@@ -48,6 +48,9 @@ struct ScatterSample {
   dvec3 weight{0.0};  // f |cos| / density
   double pdf = 0.0;   // per solid angle; of no meaning when `specular`
   bool specular = false;
+  // Factor in `weight` that is no loss but the squeezing of solid angle by refraction. Roulette should divide
+  // it out.
+  double squeeze = 1.0;
 };
 
 // Whether all scattering is in directions of measure zero, which no light sample can hit.

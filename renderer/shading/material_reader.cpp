@@ -1,0 +1,63 @@
+#include "renderer/shading/material.h"
+
+namespace rondure {
+namespace {
+
+const ParameterDoc emission_doc{"emission", "colour >= 0", "0", "radiance that leaves the outward side"};
+
+// Below it (alpha = 1e-4) the lobe is as good as a mirror, and its density loses digits.
+constexpr double least_roughness = 0.01;
+
+}  // namespace
+
+Material read_material(Params& params) {
+  Material material;
+  const std::string type =
+      params.choice("type", {"diffuse", "mirror", "dielectric", "rough_conductor"}, "diffuse");
+  const Range unit = Range::closed(0.0, 1.0);
+  if (type == "diffuse") {
+    material.scattering = Diffuse{params.color("albedo", Diffuse{}.albedo, unit)};
+  } else if (type == "mirror") {
+    material.scattering = Mirror{params.color("reflectance", Mirror{}.reflectance, unit)};
+  } else if (type == "dielectric") {
+    Dielectric m;
+    m.ior = params.number("ior", m.ior, Range::closed(0.1, 10.0));
+    m.transmittance = params.color("transmittance", m.transmittance, unit);
+    material.scattering = m;
+  } else {
+    RoughConductor m;
+    m.eta = params.color("eta", m.eta, Range::positive());
+    m.k = params.color("k", m.k);
+    const double roughness = params.number("roughness", 0.2, Range::closed(least_roughness, 1.0));
+    m.alpha = roughness * roughness;
+    material.scattering = m;
+  }
+  material.emission = params.color("emission", dvec3(0.0));
+  params.finish();
+  return material;
+}
+
+const std::vector<TypeDoc>& material_docs() {
+  static const std::vector<TypeDoc> docs = {
+      {"diffuse",
+       "Scatters equally in all directions (Lambert 1760), on both sides.",
+       {{"albedo", "colour in [0, 1]", "0.5", "share of light that is scattered"}, emission_doc}},
+      {"mirror",
+       "Reflects in the one direction of the law of reflection, on both sides.",
+       {{"reflectance", "colour in [0, 1]", "1", "share of light that is reflected"}, emission_doc}},
+      {"dielectric",
+       "Smooth clear interface, such as glass; the inside is where the normal leaves.",
+       {{"ior", "number in [0.1, 10]", "1.5", "index of refraction inside, relative to outside"},
+        {"transmittance", "colour in [0, 1]", "1", "factor on light that crosses"},
+        emission_doc}},
+      {"rough_conductor",
+       "Metal with GGX microfacets (Walter et al. 2007) and exact Fresnel reflectance, on both sides.",
+       {{"eta", "colour > 0", "[0.2, 0.92, 1.1]", "index of refraction, real part; the default is copper's"},
+        {"k", "colour >= 0", "[3.9, 2.45, 2.14]", "index of refraction, imaginary part"},
+        {"roughness", "number in [0.01, 1]", "0.2", "square root of the GGX width alpha"},
+        emission_doc}},
+  };
+  return docs;
+}
+
+}  // namespace rondure
