@@ -1,0 +1,129 @@
+// Pieces of a patch's parameter domain, and the Bernstein operations that the searches need on them.
+//
+// A shape knows the degree; a cell is a place in the patch's domain with its own local parameters (a, b): [0, 1]^2 on
+// a rectangle, barycentric (a, b, 1 - a - b) on a triangle. Searches are written once, over either shape.
+#pragma once
+
+#include <algorithm>
+#include <glm/vec2.hpp>
+
+#include "renderer/bezier/tensor.h"
+#include "renderer/bezier/triangle.h"
+
+namespace rondure {
+
+struct RectangleCell {
+  dvec2 low{0.0};
+  dvec2 high{1.0};
+};
+
+struct TriangleCell {
+  dvec2 corner[3] = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};  // where a = 1, b = 1, and both are 0
+};
+
+struct TensorShape {
+  using Cell = RectangleCell;
+  int m, n;
+
+  int size() const { return (m + 1) * (n + 1); }
+  bool can_derive_a() const { return m > 0; }
+  bool can_derive_b() const { return n > 0; }
+  TensorShape derived_a() const { return {m - 1, n}; }
+  TensorShape derived_b() const { return {m, n - 1}; }
+  static dvec2 center() { return dvec2(0.5); }
+  static double half_width() { return 0.5; }
+
+  template <class T>
+  void derive_a(const T* f, T* out) const { tensor_derivative_u(f, m, n, out); }
+  template <class T>
+  void derive_b(const T* f, T* out) const { tensor_derivative_v(f, m, n, out); }
+  template <class T>
+  FirstOrder<T> first(const T* f, dvec2 p) const { return tensor_first(f, m, n, p.x, p.y); }
+  template <class T>
+  SecondOrder<T> second(const T* f, dvec2 p) const { return tensor_second(f, m, n, p.x, p.y); }
+  template <class T>
+  void restrict_to(const T* patch, const Cell& c, T* out) const {
+    tensor_restrict(patch, m, n, c.low.x, c.high.x, c.low.y, c.high.y, out);
+  }
+
+  // Halves the cell across a (or b); `low` and `high` receive the two nets.
+  template <class T>
+  void halve(const T* f, const Cell& c, bool across_a, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
+    low_cell = high_cell = c;
+    const int k = across_a ? 0 : 1;
+    const double middle = 0.5 * (c.low[k] + c.high[k]);
+    low_cell.high[k] = high_cell.low[k] = middle;
+    if (across_a)
+      tensor_halve_u(f, m, n, low, high);
+    else
+      tensor_halve_v(f, m, n, low, high);
+  }
+
+  // How far (a, b) lies outside the cell; at most 0 inside.
+  static double outside(dvec2 p) { return std::max({-p.x, p.x - 1.0, -p.y, p.y - 1.0}); }
+  static dvec2 to_patch(const Cell& c, dvec2 p) { return c.low + p * (c.high - c.low); }
+  static dvec2 from_patch(const Cell& c, dvec2 p) { return (p - c.low) / (c.high - c.low); }
+  // The nearest point of the patch's own domain.
+  static dvec2 clamp(dvec2 p) { return dvec2(std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)); }
+};
+
+struct TriangleShape {
+  using Cell = TriangleCell;
+  int n;
+
+  int size() const { return triangle_size(n); }
+  bool can_derive_a() const { return n > 0; }
+  bool can_derive_b() const { return n > 0; }
+  TriangleShape derived_a() const { return {n - 1}; }
+  TriangleShape derived_b() const { return {n - 1}; }
+  static dvec2 center() { return dvec2(1.0 / 3.0); }
+  // Largest |a - center| over the cell.
+  static double half_width() { return 2.0 / 3.0; }
+
+  template <class T>
+  void derive_a(const T* f, T* out) const { triangle_derivative_u(f, n, out); }
+  template <class T>
+  void derive_b(const T* f, T* out) const { triangle_derivative_v(f, n, out); }
+  template <class T>
+  FirstOrder<T> first(const T* f, dvec2 p) const { return triangle_first(f, n, p.x, p.y); }
+  template <class T>
+  SecondOrder<T> second(const T* f, dvec2 p) const { return triangle_second(f, n, p.x, p.y); }
+  template <class T>
+  void restrict_to(const T* patch, const Cell& c, T* out) const { triangle_restrict(patch, n, c.corner, out); }
+
+  // Halves the cell's longest edge in the patch's domain: angles stay bounded however deep the search goes.
+  template <class T>
+  void halve(const T* f, const Cell& c, bool, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
+    int longest = 0;
+    double length2 = -1.0;
+    for (int k = 0; k < 3; ++k) {
+      const dvec2 e = c.corner[(k + 1) % 3] - c.corner[k];
+      if (const double l = e.x * e.x + e.y * e.y; l > length2) length2 = l, longest = k;
+    }
+    static constexpr dvec2 local[3] = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};
+    const int next = (longest + 1) % 3;
+    dvec2 low_corner[3] = {local[0], local[1], local[2]}, high_corner[3] = {local[0], local[1], local[2]};
+    low_corner[next] = high_corner[longest] = 0.5 * (local[longest] + local[next]);
+    low_cell = high_cell = c;
+    low_cell.corner[next] = high_cell.corner[longest] = 0.5 * (c.corner[longest] + c.corner[next]);
+    triangle_restrict(f, n, low_corner, low);
+    triangle_restrict(f, n, high_corner, high);
+  }
+
+  static double outside(dvec2 p) { return std::max({-p.x, -p.y, p.x + p.y - 1.0}); }
+  static dvec2 to_patch(const Cell& c, dvec2 p) {
+    return c.corner[2] + p.x * (c.corner[0] - c.corner[2]) + p.y * (c.corner[1] - c.corner[2]);
+  }
+  static dvec2 from_patch(const Cell& c, dvec2 p) {
+    const dvec2 e = c.corner[0] - c.corner[2], g = c.corner[1] - c.corner[2], r = p - c.corner[2];
+    const double det = e.x * g.y - e.y * g.x;
+    return dvec2(r.x * g.y - r.y * g.x, e.x * r.y - e.y * r.x) / det;
+  }
+  static dvec2 clamp(dvec2 p) {
+    p = dvec2(std::max(p.x, 0.0), std::max(p.y, 0.0));
+    const double sum = p.x + p.y;
+    return sum > 1.0 ? p / sum : p;
+  }
+};
+
+}  // namespace rondure

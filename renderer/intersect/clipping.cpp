@@ -1,0 +1,341 @@
+#include "renderer/intersect/clipping.h"
+
+#include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
+
+#include "renderer/intersect/fold.h"
+
+namespace rondure {
+namespace {
+
+constexpr int depth_limit = 112;             // 53 halvings of each parameter, and a few clips
+constexpr std::size_t cell_limit = 1 << 14;  // a tangential ray takes tens; a net that takes this many is broken
+constexpr double contraction = 0.3;          // below 1/3, full Newton steps converge from anywhere in the cell
+constexpr double macroscopic = 0x1p20;       // times the rounding error: no isolated root looks like this
+
+enum class Outcome { finished, divide };
+
+template <class Shape>
+struct Frame {
+  typename Shape::Cell cell;
+  int depth = 0;
+};
+
+// Scratch memory that a thread keeps, so that a search allocates nothing once it is warm.
+struct Workspace {
+  std::vector<dvec2> stack, turned, first[2], second[3];
+};
+
+template <class Shape>
+class Search {
+ public:
+  Search(const Shape& shape, const dvec2* patch, double error, RootList& roots, SearchCounts& counts)
+      : shape_(shape), size_(static_cast<std::size_t>(shape.size())), patch_(patch), error_(error), roots_(roots), counts_(counts) {
+    static thread_local Workspace workspace;
+    work_ = &workspace;
+    work_->stack.resize(size_ * (depth_limit + 3));
+    for (auto* v : {&work_->turned, &work_->first[0], &work_->first[1], &work_->second[0], &work_->second[1], &work_->second[2]})
+      v->resize(size_);
+  }
+
+  void run(const typename Shape::Cell& start) {
+    Frame<Shape> frames[depth_limit + 2];
+    frames[0].cell = start;
+    shape_.restrict_to(patch_, start, net(0));
+    std::size_t visited = 0;
+    for (int level = 0; level >= 0;) {
+      Frame<Shape>& frame = frames[level];
+      if (++visited > cell_limit) {
+        ++counts_.exhausted;
+        break;
+      }
+      dvec2* f = net(level);
+      const bool deepest = frame.depth >= depth_limit;
+      if (examine(f, frame.cell) == Outcome::finished || deepest) {
+        if (deepest) keep(Shape::to_patch(frame.cell, Shape::center()), true);
+        --level;
+        continue;
+      }
+      if constexpr (std::is_same_v<Shape, TensorShape>)
+        if (clip(level, frame)) continue;
+      halve(level, frames);
+      ++level;
+    }
+    counts_.cells += visited;
+  }
+
+ private:
+  const Shape shape_;
+  const std::size_t size_;
+  const dvec2* patch_;
+  const double error_;
+  RootList& roots_;
+  SearchCounts& counts_;
+  Workspace* work_;
+  glm::dmat2 inverse_{1.0};  // of the Jacobian at the centre of the cell last examined
+  bool invertible_ = false;
+
+  dvec2* net(int level) { return work_->stack.data() + static_cast<std::size_t>(level) * size_; }
+
+  struct Hull {
+    dvec2 low{1e300}, high{-1e300};
+    void add(dvec2 p) { low = glm::min(low, p), high = glm::max(high, p); }
+    bool avoids_zero(dvec2 band) const {
+      return low.x > band.x || low.y > band.y || high.x < -band.x || high.y < -band.y;
+    }
+    dvec2 magnitude() const { return glm::max(-low, high); }
+  };
+
+  Hull hull(const dvec2* f) const {
+    Hull h;
+    for (std::size_t k = 0; k < size_; ++k) h.add(f[k]);
+    return h;
+  }
+
+  Outcome examine(const dvec2* f, const typename Shape::Cell& cell) {
+    const Hull raw = hull(f);
+    invertible_ = false;
+    if (raw.avoids_zero(dvec2(error_))) return Outcome::finished;
+    const dvec2 magnitude = raw.magnitude();
+    if (std::max(magnitude.x, magnitude.y) <= error_) {
+      keep(Shape::to_patch(cell, Shape::center()), true);
+      return Outcome::finished;
+    }
+    const FirstOrder<dvec2> middle = shape_.first(f, Shape::center());
+    const glm::dmat2 jacobian(middle.du, middle.dv);
+    const double det = glm::determinant(jacobian);
+    const double norm2 = glm::dot(middle.du, middle.du) + glm::dot(middle.dv, middle.dv);
+    if (std::fabs(det) > 1e-14 * norm2) {
+      inverse_ = glm::inverse(jacobian);
+      invertible_ = true;
+      const dvec2 band = preconditioned_error();
+      Hull g;
+      for (std::size_t k = 0; k < size_; ++k) g.add(inverse_ * f[k]);
+      if (g.avoids_zero(band)) return Outcome::finished;
+      if (is_simple(f)) return solve_simple(f, cell, band);
+    }
+    return try_fold(f, cell, jacobian);
+  }
+
+  dvec2 preconditioned_error() const {
+    return error_ * dvec2(std::fabs(inverse_[0].x) + std::fabs(inverse_[1].x), std::fabs(inverse_[0].y) + std::fabs(inverse_[1].y));
+  }
+
+  // Whether |inverse . J - I| < contraction in the maximum norm, all over the cell, from the Bernstein coefficients of J.
+  bool is_simple(const dvec2* f) {
+    dvec2 *da = work_->first[0].data(), *db = work_->first[1].data();
+    dvec2 from_a(0.0), from_b(0.0);
+    if (shape_.can_derive_a()) {
+      shape_.derive_a(f, da);
+      for (int k = 0; k < shape_.derived_a().size(); ++k) from_a = glm::max(from_a, glm::abs(inverse_ * da[k] - dvec2(1.0, 0.0)));
+    }
+    if (shape_.can_derive_b()) {
+      shape_.derive_b(f, db);
+      for (int k = 0; k < shape_.derived_b().size(); ++k) from_b = glm::max(from_b, glm::abs(inverse_ * db[k] - dvec2(0.0, 1.0)));
+    }
+    return std::max(from_a.x + from_b.x, from_a.y + from_b.y) < contraction;
+  }
+
+  Outcome solve_simple(const dvec2* f, const typename Shape::Cell& cell, dvec2 band) {
+    dvec2 p = Shape::center();
+    for (int k = 0; k < 32; ++k) {
+      const FirstOrder<dvec2> s = shape_.first(f, p);
+      const dvec2 step = glm::inverse(glm::dmat2(s.du, s.dv)) * s.value;
+      p -= step;
+      // A root of this cell would hold every iterate within `contraction` of it.
+      if (!(Shape::outside(p) < 1.0)) return Outcome::finished;
+      if (std::max(std::fabs(step.x), std::fabs(step.y)) <= std::max(band.x, band.y) + 1e-15) break;
+    }
+    if (Shape::outside(p) <= 4.0 * std::max(band.x, band.y) + 8.0 * unit_roundoff) keep(Shape::to_patch(cell, p), false);
+    return Outcome::finished;
+  }
+
+  Outcome try_fold(const dvec2* f, const typename Shape::Cell& cell, const glm::dmat2& jacobian) {
+    // Turn the two planes about the ray so that the first polynomial takes all of the gradient that one can take.
+    const dvec2 row0(jacobian[0].x, jacobian[1].x), row1(jacobian[0].y, jacobian[1].y);
+    const double angle = 0.5 * std::atan2(2.0 * glm::dot(row0, row1), glm::dot(row0, row0) - glm::dot(row1, row1));
+    const double c = std::cos(angle), s = std::sin(angle);
+    dvec2* t = work_->turned.data();
+    for (std::size_t k = 0; k < size_; ++k) t[k] = dvec2(c * f[k].x + s * f[k].y, c * f[k].y - s * f[k].x);
+    const Hull h = hull(t);
+    if (h.avoids_zero(dvec2(error_))) return Outcome::finished;
+
+    if (!shape_.can_derive_a() || !shape_.can_derive_b()) return Outcome::divide;
+    const dvec2 gradient = c * row0 + s * row1;
+    const bool swapped = std::fabs(gradient.x) > std::fabs(gradient.y);
+    dvec2 *da = work_->first[0].data(), *db = work_->first[1].data();
+    shape_.derive_a(t, da);
+    shape_.derive_b(t, db);
+    const int count_a = shape_.derived_a().size(), count_b = shape_.derived_b().size();
+    const auto range = [](const dvec2* net, int count, int component) {
+      Interval r{0.0, 0.0};
+      for (int k = 0; k < count; ++k)
+        r = k == 0 ? Interval{net[0][component], net[0][component]}
+                   : Interval{std::min(r.low, net[k][component]), std::max(r.high, net[k][component])};
+      return r;
+    };
+    Interval x[2], y[2];
+    for (int k = 0; k < 2; ++k) {
+      x[k] = range(da, count_a, k), y[k] = range(db, count_b, k);
+      if (swapped) std::swap(x[k], y[k]);
+    }
+    if (y[0].contains_zero()) return Outcome::divide;
+    if (h.magnitude().y <= error_ && h.magnitude().x > macroscopic * error_) return Outcome::finished;
+
+    Interval xx[2], xy[2], yy[2];
+    dvec2* second = work_->second[0].data();
+    const auto second_range = [&](bool possible, auto&& derive, int count, Interval* out) {
+      if (!possible) return;
+      derive();
+      for (int k = 0; k < 2; ++k) out[k] = range(second, count, k);
+    };
+    const Shape along_a = shape_.derived_a(), along_b = shape_.derived_b();
+    second_range(along_a.can_derive_a(), [&] { along_a.derive_a(da, second); }, along_a.derived_a().size(), xx);
+    second_range(along_a.can_derive_b(), [&] { along_a.derive_b(da, second); }, along_a.derived_b().size(), xy);
+    second_range(along_b.can_derive_b(), [&] { along_b.derive_b(db, second); }, along_b.derived_b().size(), yy);
+    if (swapped)
+      for (int k = 0; k < 2; ++k) std::swap(xx[k], yy[k]);
+
+    const Interval dy = -(x[0] / y[0]);
+    const auto bend = [&](int k) { return xx[k] + 2.0 * (xy[k] * dy) + yy[k] * (dy * dy); };
+    const Interval ddy = -(bend(0) / y[0]);
+    const Interval curvature = bend(1) + y[1] * ddy;
+    if (curvature.contains_zero() || curvature.magnitude() > 4.0 * curvature.mignitude()) return Outcome::divide;
+
+    const FoldResult fold = solve_fold(shape_, t, swapped, curvature, error_);
+    switch (fold.kind) {
+      case FoldResult::Kind::undecided: return Outcome::divide;
+      case FoldResult::Kind::none: return Outcome::finished;
+      case FoldResult::Kind::tangent: {
+        if (Shape::outside(fold.at[0]) <= fold.tolerance) keep(Shape::to_patch(cell, fold.at[0]), true);
+        return Outcome::finished;
+      }
+      case FoldResult::Kind::pair: break;
+    }
+    keep_pair(cell, fold);
+    return Outcome::finished;
+  }
+
+  // Roots of a pair that lie within the patch count as they are. If neither does, the nearer may be there by rounding; but
+  // never a root beside its mirror image across a singular corner.
+  void keep_pair(const typename Shape::Cell& cell, const FoldResult& fold) {
+    dvec2 at[2];
+    double outside[2];
+    bool here[2];
+    for (int k = 0; k < 2; ++k) {
+      at[k] = Shape::to_patch(cell, fold.at[k]);
+      outside[k] = Shape::outside(at[k]);
+      here[k] = Shape::outside(fold.at[k]) <= fold.tolerance;
+    }
+    const bool within[2] = {here[0] && outside[0] <= 0.0, here[1] && outside[1] <= 0.0};
+    if (within[0] || within[1]) {
+      for (int k = 0; k < 2; ++k)
+        if (within[k]) keep(at[k], false);
+      return;
+    }
+    const int nearer = here[0] && (!here[1] || outside[0] <= outside[1]) ? 0 : 1;
+    if (here[nearer]) keep(at[nearer], false);
+  }
+
+  // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision.
+  void keep(dvec2 p, bool tangent) {
+    if (!tangent) {
+      const FirstOrder<dvec2> s = shape_.first(patch_, p);
+      const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
+      const dvec2 step = dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
+      if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) p -= step;
+    }
+    p = Shape::clamp(p);
+    roots_.push({p.x, p.y, tangent});
+  }
+
+  void halve(int level, Frame<Shape>* frames) {
+    dvec2* f = net(level);
+    bool across_a = true;
+    if constexpr (std::is_same_v<Shape, TensorShape>) {
+      // The parameter along which the polynomials vary more.
+      double along_a = 0.0, along_b = 0.0;
+      const int m = shape_.m, n = shape_.n;
+      for (int i = 0; i <= m; ++i)
+        for (int j = 0; j <= n; ++j) {
+          const dvec2 p = f[i * (n + 1) + j];
+          const dvec2 d = glm::abs(p - f[j]), e = glm::abs(p - f[i * (n + 1)]);
+          along_a = std::max({along_a, d.x, d.y});
+          along_b = std::max({along_b, e.x, e.y});
+        }
+      across_a = along_a >= along_b;
+    }
+    Frame<Shape> low, high;
+    low.depth = high.depth = frames[level].depth + 1;
+    dvec2* scratch = work_->turned.data();
+    shape_.halve(f, frames[level].cell, across_a, scratch, net(level + 1), low.cell, high.cell);
+    std::copy(scratch, scratch + size_, f);
+    frames[level] = low;
+    frames[level + 1] = high;
+  }
+
+  // Range of the parameter k over which the hull of the preconditioned polynomial k meets its error band. False: nowhere.
+  bool clip_range(const dvec2* f, int k, double band, double& from, double& to) const {
+    const int m = shape_.m, n = shape_.n, degree = k == 0 ? m : n;
+    double low[max_degree + 1], high[max_degree + 1];
+    for (int i = 0; i <= degree; ++i) low[i] = 1e300, high[i] = -1e300;
+    for (int i = 0; i <= m; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const double g = (inverse_ * f[i * (n + 1) + j])[k];
+        const int at = k == 0 ? i : j;
+        low[at] = std::min(low[at], g), high[at] = std::max(high[at], g);
+      }
+    from = 1.0, to = 0.0;
+    const auto include = [&](double x) { from = std::min(from, x), to = std::max(to, x); };
+    // Where the segments between any two of the points cross y = level: the hull's own crossings are among them.
+    for (int i = 0; i <= degree; ++i) {
+      if (low[i] <= band && high[i] >= -band) include(double(i) / degree);
+      for (int j = i + 1; j <= degree; ++j)
+        for (const double level : {-band, band})
+          for (const double p : {low[i], high[i]})
+            for (const double q : {low[j], high[j]})
+              if ((p - level) * (q - level) < 0.0) include((i + (j - i) * (level - p) / (q - p)) / degree);
+    }
+    return from <= to;
+  }
+
+  // Shrinks the cell to where roots can be. True when the frame was finished or shrunk enough to look again.
+  bool clip(int& level, Frame<Shape>& frame) {
+    if (!invertible_ || shape_.m == 0 || shape_.n == 0) return false;
+    dvec2* f = net(level);
+    const dvec2 band = preconditioned_error();
+    dvec2 from, to;
+    for (int k = 0; k < 2; ++k) {
+      if (!clip_range(f, k, band[k], from[k], to[k])) {
+        --level;
+        return true;
+      }
+    }
+    // Room for the rounding of the crossings themselves.
+    from = glm::max(from - 1e-12, dvec2(0.0)), to = glm::min(to + 1e-12, dvec2(1.0));
+    const dvec2 kept = to - from;
+    if (kept.x * kept.y > 0.5 || frame.depth + 1 >= depth_limit) return false;
+    dvec2* scratch = work_->turned.data();
+    tensor_restrict(f, shape_.m, shape_.n, from.x, to.x, from.y, to.y, scratch);
+    std::copy(scratch, scratch + size_, f);
+    frame.cell = {Shape::to_patch(frame.cell, from), Shape::to_patch(frame.cell, to)};
+    ++frame.depth;
+    return true;
+  }
+};
+
+}  // namespace
+
+void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error, RootList& roots,
+                SearchCounts& counts) noexcept {
+  Search<TensorShape>(shape, f, error, roots, counts).run(cell);
+}
+
+void find_roots(const TriangleShape& shape, const dvec2* f, const TriangleCell& cell, double error, RootList& roots,
+                SearchCounts& counts) noexcept {
+  Search<TriangleShape>(shape, f, error, roots, counts).run(cell);
+}
+
+}  // namespace rondure
