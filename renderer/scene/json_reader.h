@@ -1,0 +1,28 @@
+// JSON text to a tree of Values that know their place in the file.
+//
+// The language is JSON (RFC 8259) with // and /* */ comments. Refused, with file, line and column: duplicate keys,
+// anything after the document, text that is not UTF-8, numbers beyond the range of a double (so NaN and infinities
+// cannot occur), nesting deeper than 256, files over 1 GiB.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "renderer/api/params.h"
+
+namespace rondure {
+
+inline constexpr std::size_t max_json_bytes = std::size_t{1} << 30;
+inline constexpr int max_json_depth = 256;
+
+struct Document {
+  std::shared_ptr<const SourceText> source;
+  Value root;
+};
+
+Document read_json_file(const std::string& path);
+// `name` stands for the path in messages.
+Document read_json_text(std::string name, std::string text);
+
+}  // namespace rondure
