@@ -9,6 +9,7 @@
 
 #include "renderer/bezier/bernstein.h"
 #include "renderer/bezier/curve.h"
+#include "renderer/bezier/lanes.h"
 
 namespace rondure {
 
@@ -55,14 +56,14 @@ FirstOrder<T> tensor_first(const T* net, int m, int n, double u, double v) {
   double bv[(N >= 0 ? N : max_degree) + 1];
   bernstein_values<(M > 0 ? M - 1 : M)>(lu, u, bu);
   bernstein_values<(N > 0 ? N - 1 : N)>(lv, v, bv);
-  T s00(0.0), s01(0.0), s10(0.0), s11(0.0);
+  using L = detail::Lanes<T>;
+  L s00{}, s01{}, s10{}, s11{};
   for (int i = 0; i <= deg_u; ++i) {
     const T* row = net + i * (deg_v + 1);
-    T low = bv[0] * row[0];
-    T high = bv[0] * row[step_v];
-    for (int j = 1; j <= lv; ++j) {
-      low += bv[j] * row[j];
-      high += bv[j] * row[j + step_v];
+    L low{}, high{};
+    for (int j = 0; j <= lv; ++j) {
+      low += bv[j] * detail::lane_cast<L>(row[j]);
+      high += bv[j] * detail::lane_cast<L>(row[j + step_v]);
     }
     if (i <= lu) {
       s00 += bu[i] * low;
@@ -75,10 +76,12 @@ FirstOrder<T> tensor_first(const T* net, int m, int n, double u, double v) {
   }
   const double su = 1.0 - u;
   const double sv = 1.0 - v;
-  const T left = sv * s00 + v * s01;
-  const T right = sv * s10 + v * s11;
-  return {su * left + u * right, static_cast<double>(deg_u) * (right - left),
-          static_cast<double>(deg_v) * (su * (s01 - s00) + u * (s11 - s10))};
+  const L left = sv * s00 + v * s01;
+  const L right = sv * s10 + v * s11;
+  const L value = su * left + u * right;
+  const L in_u = static_cast<double>(deg_u) * (right - left);
+  const L in_v = static_cast<double>(deg_v) * (su * (s01 - s00) + u * (s11 - s10));
+  return {detail::lane_cast<T>(value), detail::lane_cast<T>(in_u), detail::lane_cast<T>(in_v)};
 }
 
 namespace detail {
