@@ -1,0 +1,62 @@
+#include "renderer/film/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace rondure {
+namespace {
+
+[[noreturn]] void refuse(const std::string& target, int error) {
+  throw std::runtime_error(fmt::format("{}: cannot write: {}", target, std::strerror(error)));
+}
+
+// Data that is renamed before it is on the disk may be lost under the new name.
+int synchronise(const std::string& path, int flags) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) return errno;
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  return error;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string target, const std::string& suffix) : target_(std::move(target)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(target_, ignored)) refuse(target_, EISDIR);
+  const std::string name = target_ + ".part-XXXXXX" + suffix;
+  std::vector<char> buffer(name.begin(), name.end());
+  buffer.push_back('\0');
+  const int file = mkostemps(buffer.data(), static_cast<int>(suffix.size()), O_CLOEXEC);
+  if (file < 0) refuse(target_, errno);
+  temporary_.assign(buffer.data());
+  // mkstemp makes files for their owner alone; a picture gets what the user's mask allows.
+  const mode_t mask = umask(0);
+  umask(mask);
+  fchmod(file, 0666 & ~mask);
+  close(file);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  if (const int error = synchronise(temporary_, O_RDONLY)) refuse(target_, error);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
+  temporary_.clear();
+}
+
+void check_writable(const std::string& target) { AtomicFile{target}; }
+
+}  // namespace rondure

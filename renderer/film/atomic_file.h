@@ -1,0 +1,30 @@
+// A file that appears under its name whole or not at all.
+#pragma once
+
+#include <string>
+
+namespace rondure {
+
+// Makes an empty file beside the target. `commit` moves it, once written, into the target's place; without
+// that it is deleted.
+class AtomicFile {
+ public:
+  // Throws std::runtime_error naming the target and the reason. `suffix` ends the temporary name.
+  explicit AtomicFile(std::string target, const std::string& suffix = "");
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::string& temporary() const { return temporary_; }
+  // Waits for the disk, then renames. Throws like the constructor.
+  void commit();
+
+ private:
+  std::string target_;
+  std::string temporary_;  // empty once committed
+};
+
+// Throws as AtomicFile would, and leaves nothing behind: to learn of a bad name before hours of work.
+void check_writable(const std::string& target);
+
+}  // namespace rondure

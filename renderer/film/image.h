@@ -1,0 +1,34 @@
+// A picture in memory, and the door to the module that reads and writes picture files.
+//
+// OpenImageIO brings some 250 shared libraries; they stay in a module of their own, loaded by the first call
+// here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/api/patch.h"
+
+namespace rondure {
+
+// Linear RGB, top row first.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb;
+
+  dvec3 at(int x, int y) const {
+    const std::size_t i =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+  }
+};
+
+// Any format that OpenImageIO knows. 8- and 16-bit files are taken for sRGB; grey is spread over three
+// channels. Throws std::runtime_error naming the file; non-finite and negative values are errors too.
+Image read_image(const std::string& path);
+
+// 8-bit, three bytes a pixel, top row first, sRGB. Atomic. Throws std::runtime_error naming the file.
+void write_png(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb);
+
+}  // namespace rondure

@@ -1,0 +1,24 @@
+// The module's C functions. Each returns true, or false after calling `fail` once with a message.
+#pragma once
+
+#include "renderer/film/image.h"
+
+namespace rondure {
+
+struct ImageReport {
+  void* context;
+  void (*fail)(void* context, const char* message);
+};
+
+extern "C" {
+// Fills `image` with linear RGB.
+using ReadImageFunction = bool (*)(const char* path, Image* image, const ImageReport* report);
+// 8-bit sRGB, top row first, three bytes a pixel.
+using WritePngFunction = bool (*)(const char* path, int width, int height, const unsigned char* rgb,
+                                  const ImageReport* report);
+}
+
+constexpr const char* read_image_name = "rondure_read_image";
+constexpr const char* write_png_name = "rondure_write_png";
+
+}  // namespace rondure

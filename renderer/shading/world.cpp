@@ -1,0 +1,187 @@
+#include "renderer/shading/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <utility>
+
+#include "renderer/shading/environment.h"
+#include "renderer/shading/surface_light.h"
+
+namespace rondure {
+namespace {
+
+using std::numbers::pi;
+
+struct ImageLight {
+  Environment image;
+  dvec3 scale;
+  dmat3 to_world;
+
+  dvec3 local(const dvec3& direction) const { return glm::transpose(to_world) * direction; }
+};
+
+struct AreaLight {
+  SurfaceLight points;
+  int surface;
+  dvec3 radiance;
+};
+
+}  // namespace
+
+// What sample_light chooses from, in this order: images, areas, points, directionals. Constant lights are not
+// sampled: scattering samples find them at least as well.
+struct World::Lights {
+  std::vector<ImageLight> images;
+  std::vector<AreaLight> areas;
+  std::vector<PointLight> points;
+  std::vector<DirectionalLight> directionals;
+  dvec3 constant{0.0};
+  std::vector<int> area_of_surface;  // index into areas, or -1
+  std::vector<double> probability, cumulative;
+
+  std::size_t first_area() const { return images.size(); }
+  std::size_t first_point() const { return first_area() + areas.size(); }
+  std::size_t first_directional() const { return first_point() + points.size(); }
+
+  double background_pdf(const dvec3& direction) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      sum += probability[i] * images[i].image.pdf(images[i].local(direction));
+    }
+    return sum;
+  }
+
+  void weigh(double radius) {
+    // Powers in watts (to a common factor) over the scene's own extent; half of all choices are uniform, so
+    // that no light starves where the powers mislead.
+    std::vector<double> power;
+    const double disk = pi * radius * radius;
+    for (const ImageLight& l : images)
+      power.push_back(disk * 4.0 * pi * l.image.mean_luminance() * luminance(l.scale));
+    for (const AreaLight& l : areas) power.push_back(pi * l.points.area() * luminance(l.radiance));
+    for (const PointLight& l : points) power.push_back(4.0 * pi * luminance(l.intensity));
+    for (const DirectionalLight& l : directionals) power.push_back(disk * luminance(l.irradiance));
+    double total = 0.0;
+    for (const double p : power) total += p;
+    const auto count = static_cast<double>(power.size());
+    cumulative.assign(1, 0.0);
+    for (const double p : power) {
+      probability.push_back(total > 0.0 ? 0.5 / count + 0.5 * p / total : 1.0 / count);
+      cumulative.push_back(cumulative.back() + probability.back());
+    }
+  }
+};
+
+World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
+             std::vector<int> material_of_surface)
+    : tracer_(&tracer),
+      materials_(std::move(materials)),
+      material_of_surface_(std::move(material_of_surface)),
+      lights_(std::make_unique<Lights>()) {
+  for (const Light& light : lights) {
+    if (const auto* constant = std::get_if<ConstantLight>(&light)) lights_->constant += constant->radiance;
+    if (const auto* point = std::get_if<PointLight>(&light)) lights_->points.push_back(*point);
+    if (const auto* far = std::get_if<DirectionalLight>(&light)) lights_->directionals.push_back(*far);
+    if (const auto* image = std::get_if<EnvironmentLight>(&light)) {
+      lights_->images.push_back({Environment(read_image(image->file)), image->scale, image->to_world});
+    }
+  }
+  const std::vector<TracedSurface>& surfaces = tracer.surfaces();
+  lights_->area_of_surface.assign(surfaces.size(), -1);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Material& m = materials_[static_cast<std::size_t>(material_of_surface_[i])];
+    if (!emits(m)) continue;
+    lights_->area_of_surface[i] = static_cast<int>(lights_->areas.size());
+    lights_->areas.push_back({SurfaceLight(surfaces[i].surface), static_cast<int>(i), m.emission});
+  }
+  lights_->weigh(tracer.bounding_radius());
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+dvec3 World::emitted(const Hit& hit, const dvec3& out) const {
+  const Material& m = material(hit);
+  return emits(m) && glm::dot(hit.normal, out) > 0.0 ? m.emission : dvec3(0.0);
+}
+
+dvec3 World::background(const dvec3& direction) const {
+  dvec3 sum = lights_->constant;
+  for (const ImageLight& l : lights_->images) sum += l.scale * l.image.radiance(l.local(direction));
+  return sum;
+}
+
+double World::background_pdf(const dvec3& direction) const { return lights_->background_pdf(direction); }
+
+double World::light_pdf(const dvec3& point, const Hit& hit) const {
+  const int area = lights_->area_of_surface[static_cast<std::size_t>(hit.surface)];
+  if (area < 0) return 0.0;
+  const dvec3 way = hit.point - point;
+  const double distance2 = glm::dot(way, way);
+  const double cosine = -glm::dot(way, hit.normal) / std::sqrt(distance2);
+  if (!(cosine > 0.0)) return 0.0;
+  const auto index = static_cast<std::size_t>(area);
+  return lights_->probability[lights_->first_area() + index] * lights_->areas[index].points.density(hit) *
+         distance2 / cosine;
+}
+
+LightSample World::sample_light(const dvec3& point, double choice, dvec2 uv) const {
+  const Lights& all = *lights_;
+  if (all.probability.empty()) return {};
+  const auto above = std::upper_bound(all.cumulative.begin() + 1, all.cumulative.end() - 1, choice);
+  const auto index = static_cast<std::size_t>(above - all.cumulative.begin()) - 1;
+  LightSample result;
+  if (index < all.first_area()) {
+    const ImageLight& light = all.images[index];
+    result.direction = glm::normalize(light.to_world * light.image.sample(uv).direction);
+    // Any image may have sent this direction: take the light of all and the density of all.
+    result.radiance = background(result.direction);
+    result.pdf = background_pdf(result.direction);
+    return std::isfinite(result.pdf) ? result : LightSample{};
+  }
+  result.pdf = all.probability[index];
+  if (index >= all.first_directional()) {
+    const DirectionalLight& light = all.directionals[index - all.first_directional()];
+    result.delta = true;
+    result.direction = -light.direction;
+    result.radiance = light.irradiance;
+    return result;
+  }
+  SurfaceLight::Sample target;
+  if (index < all.first_point()) {
+    target = all.areas[index - all.first_area()].points.sample(uv);
+    if (!(target.density > 0.0)) return {};
+  } else {
+    target.point = all.points[index - all.first_point()].position;
+  }
+  const dvec3 way = target.point - point;
+  const double distance2 = glm::dot(way, way);
+  if (!(distance2 > 0.0)) return {};
+  result.distance = std::sqrt(distance2);
+  result.direction = way / result.distance;
+  if (index >= all.first_point()) {
+    result.delta = true;
+    result.radiance = all.points[index - all.first_point()].intensity / distance2;
+    return result;
+  }
+  const AreaLight& light = all.areas[index - all.first_area()];
+  const double cosine = -glm::dot(result.direction, target.normal);
+  if (!(cosine > 0.0)) return {};
+  result.surface = light.surface;
+  result.radiance = light.radiance;
+  result.pdf *= target.density * distance2 / cosine;
+  return std::isfinite(result.pdf) ? result : LightSample{};
+}
+
+bool World::visible(const Hit& from, const LightSample& sample) const {
+  // A sampled point lies on its surface to some ulps of its coordinates. 2^-30 of the distance clears those
+  // for coordinates up to 10^6 distances, and hides nothing that a picture could show.
+  const double reach = sample.surface >= 0 ? sample.distance * (1.0 - 0x1p-30) : sample.distance;
+  return !tracer_->occluded(spawn(from, sample.direction, reach));
+}
+
+}  // namespace rondure
