@@ -1,0 +1,55 @@
+#include "renderer/intersect/ellipsoid.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+namespace rondure {
+namespace {
+
+EllipsoidHit make_hit(const Ellipsoid& e, dvec3 on_sphere) {
+  on_sphere /= glm::length(on_sphere);
+  EllipsoidHit hit;
+  if (e.uniform_radius > 0.0) {
+    hit.normal = on_sphere;  // the sphere was not turned, so that its parameters are in the surface's own axes
+    hit.point = e.uniform_radius * on_sphere;
+    on_sphere = glm::normalize(e.inverse * hit.point);
+  } else {
+    hit.point = e.linear * on_sphere;
+    hit.normal = glm::normalize(on_sphere * e.inverse);  // row vector times inverse: the inverse transpose
+  }
+  const double turn = std::atan2(on_sphere.y, on_sphere.x) / (2.0 * std::numbers::pi);
+  hit.u = turn < 0.0 ? turn + 1.0 : turn;
+  hit.v = std::atan2(std::hypot(on_sphere.x, on_sphere.y), on_sphere.z) / std::numbers::pi;
+  return hit;
+}
+
+}  // namespace
+
+Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(glm::inverse(map)) {
+  // Semi-axes lie between the column lengths' extremes only for orthogonal columns: the Frobenius norm bounds them all.
+  extent = std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+  const double r = glm::length(map[0]);
+  const double skew = std::fmax(std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),
+                                std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
+                                          std::fabs(glm::dot(map[2], map[0]))) / r);
+  if (skew <= 8.0 * unit_roundoff * r) uniform_radius = extent = r;
+}
+
+int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept {
+  const bool uniform = surface.uniform_radius > 0.0;
+  const dvec3 origin = uniform ? ray.base / surface.uniform_radius : surface.inverse * ray.base;
+  const dvec3 direction = uniform ? ray.direction / surface.uniform_radius : surface.inverse * ray.direction;
+  const double length2 = glm::dot(direction, direction);
+  // From the point nearest to the centre the quadratic has no linear term, and its discriminant no cancellation.
+  const dvec3 nearest = origin - (glm::dot(origin, direction) / length2) * direction;
+  const double impact = glm::length(nearest);
+  if (!(impact <= 1.0)) return 0;
+  const double half = std::sqrt((1.0 - impact) * (1.0 + impact) / length2);
+  hits[0] = make_hit(surface, nearest - half * direction);
+  hits[1] = make_hit(surface, nearest + half * direction);
+  return 2;
+}
+
+}  // namespace rondure

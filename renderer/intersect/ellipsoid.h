@@ -1,0 +1,30 @@
+// Closed-form intersection with the image of the unit sphere under a linear map: the surface that exact patches are
+// compared with.
+#pragma once
+
+#include "renderer/intersect/root.h"
+
+namespace rondure {
+
+struct Ellipsoid {
+  dmat3 linear{1.0};           // unit sphere to surface, about the frame's zero
+  dmat3 inverse{1.0};
+  double extent = 1.0;         // largest semi-axis
+  double uniform_radius = 0.0; // the radius when `linear` is a scaled rotation, else 0
+
+  explicit Ellipsoid(const dmat3& map);
+};
+
+struct EllipsoidHit {
+  dvec3 point;   // in the surface's frame
+  dvec3 normal;  // unit, outward
+  double u, v;   // longitude / 2 pi from +x towards +y, and colatitude / pi from +z, both of the unit sphere
+};
+
+// Number of roots (0 or 2), entering first. Roots coincide for a tangential ray.
+int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept;
+
+// Bound on the distance of a computed hit from the exact one, at right angles to the ray.
+inline double ellipsoid_error(const Ellipsoid& e) { return 8.0 * unit_roundoff * e.extent; }
+
+}  // namespace rondure

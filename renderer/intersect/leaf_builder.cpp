@@ -1,0 +1,163 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "renderer/intersect/leaf.h"
+
+namespace rondure {
+namespace {
+
+// Contraction of Newton's method for a ray along the normal. The Jacobian of a ray at angle theta to it is worse by
+// 1 / cos(theta), so that rays up to about 70 degrees stay below the kernel's own limit.
+constexpr double target_contraction = 0.1;
+constexpr int singular_depth = 10;  // halvings after which leaves beside a singular point are left as they are
+constexpr int weight_depth = 40;    // halvings after which a weight that is still not positive never will be
+
+
+RectangleCell enlarged(const RectangleCell& c) {
+  const dvec2 middle = 0.5 * (c.low + c.high);
+  return {middle + leaf_enlargement * (c.low - middle), middle + leaf_enlargement * (c.high - middle)};
+}
+
+TriangleCell enlarged(const TriangleCell& c) {
+  const dvec2 middle = (c.corner[0] + c.corner[1] + c.corner[2]) / 3.0;
+  TriangleCell out;
+  for (int k = 0; k < 3; ++k) out.corner[k] = middle + leaf_enlargement * (c.corner[k] - middle);
+  return out;
+}
+
+void place(const RectangleCell& c, Leaf& leaf) {
+  leaf.corner = c.low;
+  leaf.edge_a = dvec2(c.high.x - c.low.x, 0.0);
+  leaf.edge_b = dvec2(0.0, c.high.y - c.low.y);
+}
+
+void place(const TriangleCell& c, Leaf& leaf) {
+  leaf.corner = c.corner[2];
+  leaf.edge_a = c.corner[0] - c.corner[2];
+  leaf.edge_b = c.corner[1] - c.corner[2];
+}
+
+dvec4 abs_max(const dvec4& a, const dvec4& b) { return glm::max(a, glm::abs(b)); }
+
+// |inverse of J| . (spreads), largest row sum, for the ray along the normal through the leaf's centre; infinite where
+// the surface has no normal.
+double contraction_head_on(const Leaf& leaf) {
+  const dvec3 x = dvec3(leaf.center) / leaf.center.w;
+  const dvec3 xa = (dvec3(leaf.da) - x * leaf.da.w) / leaf.center.w, xb = (dvec3(leaf.db) - x * leaf.db.w) / leaf.center.w;
+  const double length_a = glm::length(xa);
+  const dvec3 normal = glm::cross(xa, xb);
+  if (!(glm::length(normal) > 1e-9 * length_a * glm::length(xb)) || !(length_a > 0.0)) return INFINITY;
+  const dvec3 e0 = xa / length_a, e1 = glm::normalize(glm::cross(normal, xa));
+  const dvec4 p0(e0, -glm::dot(e0, x)), p1(e1, -glm::dot(e1, x));
+  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db), b1 = glm::dot(p1, leaf.db);  // a1 = 0 by choice
+  const double sa0 = glm::dot(glm::abs(p0), leaf.spread_a), sb0 = glm::dot(glm::abs(p0), leaf.spread_b);
+  const double sa1 = glm::dot(glm::abs(p1), leaf.spread_a), sb1 = glm::dot(glm::abs(p1), leaf.spread_b);
+  const double i00 = std::fabs(1.0 / a0), i01 = std::fabs(b0 / (a0 * b1)), i11 = std::fabs(1.0 / b1);
+  return std::max(i00 * (sa0 + sb0) + i01 * (sa1 + sb1), i11 * (sa1 + sb1));
+}
+
+template <class Shape>
+class Builder {
+ public:
+  Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, LeafSet& out)
+      : shape_(shape), net_(net), patch_(patch), out_(out), points_(net.size()), inner_(net.size()) {}
+
+  void divide(const typename Shape::Cell& cell, int depth) {
+    const dvec4* net = net_.data();
+    shape_.restrict_to(net, cell, points_.data());
+    Box box;
+    bool positive = true;
+    for (const dvec4& p : points_) {
+      positive = positive && p.w > 0.0;
+      if (p.w > 0.0) box.add(dvec3(p) / p.w);
+    }
+    Leaf leaf;
+    leaf.patch = patch_;
+    place(cell, leaf);
+    linearise(cell, leaf);
+    const bool tame = positive && contraction_head_on(leaf) < target_contraction;
+    if (tame || (positive && depth >= singular_depth)) {
+      out_.leaves.push_back(leaf);
+      out_.boxes.push_back(box);
+      return;
+    }
+    if (depth >= weight_depth)
+      throw std::runtime_error(fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), however "
+                                           "finely the patch is divided, so that it cannot be bounded",
+                                           patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
+    typename Shape::Cell low, high;
+    const bool across_a = glm::length(size_a_) >= glm::length(size_b_);
+    std::vector<dvec4> scratch(points_.size() * 2);
+    shape_.halve(points_.data(), cell, across_a, scratch.data(), scratch.data() + points_.size(), low, high);
+    divide(low, depth + 1);
+    divide(high, depth + 1);
+  }
+
+ private:
+  const Shape shape_;
+  const std::vector<dvec4>& net_;
+  const int patch_;
+  LeafSet& out_;
+  std::vector<dvec4> points_, inner_;
+  dvec3 size_a_{0.0}, size_b_{0.0};
+
+  void linearise(const typename Shape::Cell& cell, Leaf& leaf) {
+    const dvec2 middle = Shape::to_patch(cell, Shape::center());
+    const FirstOrder<dvec4> s = shape_.first(net_.data(), middle);
+    leaf.center = s.value;
+    leaf.da = leaf.edge_a.x * s.du + leaf.edge_a.y * s.dv;
+    leaf.db = leaf.edge_b.x * s.du + leaf.edge_b.y * s.dv;
+    leaf.spread_a = leaf.spread_b = dvec4(0.0);
+    const dvec3 x = dvec3(s.value) / s.value.w;
+    size_a_ = dvec3(leaf.da) - x * leaf.da.w, size_b_ = dvec3(leaf.db) - x * leaf.db.w;
+
+    std::vector<dvec4> wide(points_.size());
+    shape_.restrict_to(net_.data(), enlarged(cell), wide.data());
+    if (shape_.can_derive_a()) {
+      shape_.derive_a(wide.data(), inner_.data());
+      for (int k = 0; k < shape_.derived_a().size(); ++k)
+        leaf.spread_a = abs_max(leaf.spread_a, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.da);
+    }
+    if (shape_.can_derive_b()) {
+      shape_.derive_b(wide.data(), inner_.data());
+      for (int k = 0; k < shape_.derived_b().size(); ++k)
+        leaf.spread_b = abs_max(leaf.spread_b, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.db);
+    }
+  }
+};
+
+NetScale checked_scale(const std::vector<dvec4>& points, int patch) {
+  NetScale scale;
+  for (const dvec4& p : points) {
+    const double xyz = largest(dvec3(p)), w = std::fabs(p.w);
+    if (!std::isfinite(xyz) || !std::isfinite(w)) throw std::runtime_error(fmt::format("patch {}: a control point is not finite", patch));
+    scale.position = std::fmax(scale.position, xyz);
+    scale.weight = std::fmax(scale.weight, w);
+  }
+  return scale;
+}
+
+}  // namespace
+
+LeafSet build_leaves(const std::vector<Net>& patches) {
+  LeafSet out;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const int patch = static_cast<int>(k);
+    out.scales.push_back(checked_scale(points_of(patches[k]), patch));
+    if (const auto* tensor = std::get_if<TensorNet>(&patches[k])) {
+      if (std::max(tensor->m, tensor->n) > max_degree)
+        throw std::runtime_error(fmt::format("patch {}: degree ({}, {}) is above {}", patch, tensor->m, tensor->n, max_degree));
+      Builder<TensorShape>({tensor->m, tensor->n}, tensor->points, patch, out).divide({}, 0);
+    } else {
+      const auto& triangle = std::get<TriangleNet>(patches[k]);
+      if (triangle.n > max_degree) throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, triangle.n, max_degree));
+      Builder<TriangleShape>({triangle.n}, triangle.points, patch, out).divide({}, 0);
+    }
+  }
+  return out;
+}
+
+}  // namespace rondure

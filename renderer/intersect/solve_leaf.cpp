@@ -1,0 +1,31 @@
+#include "renderer/intersect/solve_leaf.h"
+
+#include "renderer/intersect/projected_net.h"
+
+namespace rondure {
+
+SolverCounts& thread_counts() noexcept {
+  static thread_local SolverCounts counts;
+  return counts;
+}
+
+void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, double error, RootList& roots,
+                SolverCounts& counts) noexcept {
+  if (solver == Solver::newton) {
+    Root root;
+    switch (newton_on_leaf(leaf, net, ray, error, root, counts.newton)) {
+      case NewtonVerdict::none: return;
+      case NewtonVerdict::root: roots.push(root); return;
+      case NewtonVerdict::undecided: break;
+    }
+  }
+  constexpr int largest_net = (max_degree + 1) * (max_degree + 1);
+  dvec2 projected[largest_net];
+  project_net(points_of(net), ray, projected);
+  if (const auto* tensor = std::get_if<TensorNet>(&net))
+    find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, roots, counts.search);
+  else
+    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, roots, counts.search);
+}
+
+}  // namespace rondure

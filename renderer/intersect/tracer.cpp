@@ -1,0 +1,262 @@
+#include "renderer/intersect/tracer.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <stdexcept>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/crossing.h"
+#include "renderer/intersect/ellipsoid.h"
+#include "renderer/intersect/embree_scene.h"
+#include "renderer/intersect/solve_leaf.h"
+
+namespace rondure {
+namespace {
+
+// What a solver needs of one surface, beside its nets.
+struct CompiledSurface {
+  LeafSet set;                         // empty for an analytic surface
+  std::optional<Ellipsoid> ellipsoid;
+  dvec3 frame{0.0};
+};
+
+enum class Mode { closest, any, all };
+
+// One ray's way through the hierarchy; lives on the stack of the query.
+struct Query {
+  const std::vector<TracedSurface>* surfaces;
+  const std::vector<CompiledSurface>* compiled;
+  const Ray* ray;
+  Mode mode;
+  double far_origin;  // t of the traversal's origin; the traversal's direction is the ray's times 1 / `far_scale`
+  double far_scale;
+  unsigned local_surface = ~0u;
+  bool local_valid = false;
+  LocalRay local{};
+  Hit best{};
+  int best_sign = 0;
+  bool found = false;
+  std::vector<Hit>* hits = nullptr;
+  std::vector<int>* signs = nullptr;
+};
+
+bool nearer(const Hit& a, const Hit& b) {
+  if (a.t != b.t) return a.t < b.t;
+  return a.surface != b.surface ? a.surface < b.surface : a.patch < b.patch;
+}
+
+// Takes one crossing into the query. True when an occlusion query is settled.
+bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const dvec3& normal, const Crossing& c, float& far) {
+  Hit hit;
+  const dvec3& frame = (*q.compiled)[surface].frame;
+  if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return false;
+  q.found = true;
+  if (q.mode == Mode::any) return true;
+  hit.t_error = c.s_error * q.local.scale;
+  hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
+  if (q.mode == Mode::all) {
+    hit.point = frame + point, hit.normal = normal;
+    q.hits->push_back(hit);
+    q.signs->push_back(c.sign);
+    return false;
+  }
+  if (!q.best || nearer(hit, q.best)) {
+    hit.point = frame + point, hit.normal = normal;
+    q.best = hit;
+    far = std::min(far, round_far((hit.t + hit.t_error - q.far_origin) / q.far_scale));
+  }
+  return false;
+}
+
+bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far) noexcept {
+  Query& q = *static_cast<Query*>(pointer);
+  const CompiledSurface& compiled = (*q.compiled)[surface];
+  if (q.local_surface != surface) {
+    q.local_surface = surface;
+    q.local_valid = make_local_ray(q.ray->origin, q.ray->direction, compiled.frame, q.local);
+  }
+  if (!q.local_valid) return false;
+
+  if (compiled.ellipsoid) {
+    EllipsoidHit hits[2];
+    const int count = intersect_ellipsoid(*compiled.ellipsoid, q.local, hits);
+    for (int k = 0; k < count; ++k) {
+      const double error = ellipsoid_error(*compiled.ellipsoid);
+      const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
+      if (take(q, surface, 0, {hits[k].u, hits[k].v}, hits[k].point, hits[k].normal, c, far)) return true;
+    }
+    return false;
+  }
+
+  const TracedSurface& traced = (*q.surfaces)[surface];
+  const Leaf& leaf = compiled.set.leaves[leaf_index];
+  const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
+  const NetScale& scale = compiled.set.scales[static_cast<std::size_t>(leaf.patch)];
+  const double error = residual_bound(scale, q.local);
+  RootList roots;
+  solve_leaf(traced.solver, leaf, net, q.local, error, roots, thread_counts());
+  for (const Root& root : roots) {
+    const FirstOrder<dvec4> s = net_first(net, root.u, root.v);
+    const double w = s.value.w;
+    const dvec3 x = dvec3(s.value) / w;
+    const dvec3 normal = glm::cross(dvec3(s.du) - x * s.du.w, dvec3(s.dv) - x * s.dv.w);
+    const Crossing c = make_crossing(q.local, x, normal, error / w, scale.position / w, root.tangent);
+    if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct Tracer::Implementation {
+  std::vector<TracedSurface> surfaces;
+  std::vector<CompiledSurface> compiled;
+  dvec3 center{0.0};
+  double radius = 0.0;
+  std::size_t leaf_count = 0;
+  std::unique_ptr<EmbreeScene> embree;
+
+  // Where the ray enters the scene's bounding sphere. False when it misses it.
+  bool enter(const Ray& ray, Query& q, dvec3& origin, dvec3& direction, double& far) const {
+    LocalRay global;
+    if (!embree || !make_local_ray(ray.origin, ray.direction, center, global)) return false;
+    const double b2 = glm::dot(global.base, global.base), r = radius * (1.0 + 1e-9);
+    if (b2 > r * r) return false;
+    const double half = std::sqrt((r * r - b2) / global.length2);
+    const double start = ray.t_min / global.scale - global.slide, end = ray.t_max / global.scale - global.slide;
+    // A start on a surface may lie an error bound behind the first root that counts.
+    const double near = std::max(start - 1e-9 * half, -half);
+    if (!(near <= half) || !(end >= near)) return false;
+    origin = global.base + near * global.direction;
+    direction = global.direction;
+    far = std::min(half, end) - near;
+    q.far_origin = (global.slide + near) * global.scale;
+    q.far_scale = global.scale;
+    return true;
+  }
+
+  Query make_query(const Ray& ray, Mode mode) const {
+    Query q{};
+    q.surfaces = &surfaces, q.compiled = &compiled, q.ray = &ray, q.mode = mode;
+    return q;
+  }
+};
+
+Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
+  Implementation& self = *implementation_;
+  self.surfaces = std::move(surfaces);
+  std::vector<std::vector<Box>> boxes(self.surfaces.size());
+  Box world;
+  for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
+    const Surface& surface = self.surfaces[k].surface;
+    CompiledSurface compiled;
+    compiled.frame = surface.origin;
+    if (surface.ellipsoid) {
+      compiled.ellipsoid.emplace(*surface.ellipsoid);
+      const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
+      const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+      boxes[k] = {Box{-half, half}};
+    } else {
+      try {
+        compiled.set = build_leaves(surface.patches);
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("object {}: {}", k, error.what()));
+      }
+      boxes[k].swap(compiled.set.boxes);
+    }
+    for (const Box& box : boxes[k]) world.add(Box{box.low + surface.origin, box.high + surface.origin});
+    self.leaf_count += boxes[k].size();
+    self.compiled.push_back(std::move(compiled));
+  }
+  if (self.leaf_count == 0) return;
+  self.center = world.center();
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (Box& box : boxes[k]) {
+      const dvec3 shift = self.compiled[k].frame - self.center;
+      box.low += shift, box.high += shift;
+      self.radius = std::max({self.radius, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)))});
+    }
+  self.embree = std::make_unique<EmbreeScene>(boxes, self.radius, visit_leaf);
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+Hit Tracer::closest(const Ray& ray) const noexcept {
+  Query q = implementation_->make_query(ray, Mode::closest);
+  dvec3 origin, direction;
+  double far;
+  if (!implementation_->enter(ray, q, origin, direction, far)) return {};
+  implementation_->embree->visit_all(origin, direction, far, &q);
+  if (q.best && implementation_->compiled[static_cast<std::size_t>(q.best.surface)].set.leaves.size() > 0) {
+    const Surface& surface = implementation_->surfaces[static_cast<std::size_t>(q.best.surface)].surface;
+    q.best.normal = unit_normal(surface.patches[static_cast<std::size_t>(q.best.patch)], q.best.u, q.best.v);
+  }
+  return q.best;
+}
+
+bool Tracer::occluded(const Ray& ray) const noexcept {
+  Query q = implementation_->make_query(ray, Mode::any);
+  dvec3 origin, direction;
+  double far;
+  if (!implementation_->enter(ray, q, origin, direction, far)) return false;
+  return implementation_->embree->visit_any(origin, direction, far, &q);
+}
+
+std::vector<Hit> Tracer::all(const Ray& ray) const {
+  std::vector<Hit> hits;
+  std::vector<int> signs;
+  Query q = implementation_->make_query(ray, Mode::all);
+  q.hits = &hits, q.signs = &signs;
+  dvec3 origin, direction;
+  double far;
+  if (!implementation_->enter(ray, q, origin, direction, far)) return {};
+  implementation_->embree->visit_all(origin, direction, far, &q);
+
+  std::vector<std::size_t> order(hits.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nearer(hits[a], hits[b]); });
+  std::vector<Hit> out;
+  std::vector<int> out_signs;
+  for (const std::size_t k : order) {
+    // Neighbouring patches (and leaves) both report a point on their seam: same surface, same crossing, same t to rounding.
+    bool known = false;
+    for (std::size_t j = out.size(); j-- > 0 && !known;) {
+      if (hits[k].t - out[j].t > hits[k].t_error + out[j].t_error) continue;
+      const bool same_way = signs[k] == out_signs[j] || signs[k] == 0 || out_signs[j] == 0;
+      known = out[j].surface == hits[k].surface && same_way;
+    }
+    if (known) continue;
+    out.push_back(hits[k]);
+    out_signs.push_back(signs[k]);
+  }
+  for (Hit& hit : out) {
+    const Surface& surface = implementation_->surfaces[static_cast<std::size_t>(hit.surface)].surface;
+    if (!surface.ellipsoid) hit.normal = unit_normal(surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
+  }
+  return out;
+}
+
+const std::vector<TracedSurface>& Tracer::surfaces() const { return implementation_->surfaces; }
+dvec3 Tracer::bounding_center() const { return implementation_->center; }
+double Tracer::bounding_radius() const { return implementation_->radius; }
+
+TracerStatistics Tracer::statistics() const {
+  const Implementation& self = *implementation_;
+  TracerStatistics s;
+  s.surfaces = self.surfaces.size();
+  s.leaves = self.leaf_count;
+  for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
+    s.patches += self.surfaces[k].surface.patches.size();
+    for (const Net& net : self.surfaces[k].surface.patches) s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
+    s.bytes += self.compiled[k].set.leaves.size() * sizeof(Leaf) + self.compiled[k].set.scales.size() * sizeof(NetScale);
+  }
+  if (self.embree) s.bytes += self.embree->bytes();
+  return s;
+}
+
+}  // namespace rondure
