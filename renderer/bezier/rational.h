@@ -23,6 +23,8 @@ SurfaceJet surface_jet(const Net& net, double u, double v);
 // exactly zero and the rest does not cancel, so the direction stays good beside the singularity too.
 // Zero where the surface has no normal at all.
 dvec3 unit_normal(const Net& net, double u, double v);
+// The same where net_first(net, u, v) is at hand already.
+dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& first);
 
 // Signs as for f_uu . n with the normal above: an outward sphere of radius r has mean curvature -1 / r. At a
 // singular point the values are those of a point a little further inside (about 1e-4 of the domain).

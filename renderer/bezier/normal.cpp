@@ -1,0 +1,248 @@
+#include "renderer/bezier/normal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "renderer/bezier/rational.h"
+
+namespace rondure {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// The line through two homogeneous points, as the wedge product needs it.
+struct Line {
+  dvec3 moment{0.0}, direction{0.0};
+
+  Line() = default;
+  explicit Line(double) {}
+  Line(const dvec3& m, const dvec3& d) : moment(m), direction(d) {}
+  Line& operator+=(const Line& o) {
+    moment += o.moment;
+    direction += o.direction;
+    return *this;
+  }
+  Line& operator*=(double s) {
+    moment *= s;
+    direction *= s;
+    return *this;
+  }
+  Line& operator/=(double s) {
+    moment /= s;
+    direction /= s;
+    return *this;
+  }
+};
+
+Line join(const dvec4& g, const dvec4& h) {
+  return {glm::cross(dvec3(g), dvec3(h)), h.w * dvec3(g) - g.w * dvec3(h)};
+}
+
+// Normal part of the plane through a point and a line: F_w (G x H) + G_w (H x F) + H_w (F x G).
+dvec3 join_plane(const dvec4& f, const Line& gh) { return f.w * gh.moment + glm::cross(dvec3(f), gh.direction); }
+
+double largest_norm(const std::vector<dvec4>& points) {
+  double largest = 0.0;
+  for (const dvec4& p : points) largest = std::max(largest, glm::length(p));
+  return largest;
+}
+
+// A coefficient sums products of three control points; its rounding error stays below some tens of eps times
+// their size. What is smaller carries no direction.
+void flush_noise(std::vector<dvec3>& normals, double bound) {
+  for (dvec3& n : normals) {
+    if (!(glm::length(n) > bound)) n = dvec3(0.0);
+  }
+}
+
+// Sub-net P_(i+a)(j+b) of degree (m - 1, n - 1). A direction of degree 0 has no derivative, hence no normal.
+TensorPolynomial<dvec4> corner_net(const TensorNet& net, int a, int b) {
+  TensorPolynomial<dvec4> sub(net.m - 1, net.n - 1);
+  for (int i = 0; i < net.m; ++i) {
+    for (int j = 0; j < net.n; ++j) sub.at(i, j) = net.at(i + a, j + b);
+  }
+  return sub;
+}
+
+// N = m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the wedge product of
+// the sub-nets F_ab.
+TensorPolynomial<dvec3> tensor_normals(const TensorNet& net) {
+  if (net.m < 1 || net.n < 1) return {};
+  const auto f00 = corner_net(net, 0, 0);
+  const auto f10 = corner_net(net, 1, 0);
+  const auto f01 = corner_net(net, 0, 1);
+  const auto f11 = corner_net(net, 1, 1);
+  const auto l1101 = multiply(f11, f01, join);
+  const TensorPolynomial<dvec3> at_corner[2][2] = {
+      {multiply(f00, multiply(f10, f01, join), join_plane), multiply(f00, l1101, join_plane)},
+      {multiply(f00, multiply(f10, f11, join), join_plane), multiply(f10, l1101, join_plane)}};
+  TensorPolynomial<dvec3> normals(3 * net.m - 2, 3 * net.n - 2);
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      TensorPolynomial<double> weight(1, 1);
+      weight.at(a, b) = static_cast<double>(net.m * net.n);
+      normals = add_scaled(std::move(normals), multiply(weight, at_corner[a][b]), 1.0);
+    }
+  }
+  const double size = largest_norm(net.points);
+  flush_noise(normals.coefficients, 64.0 * epsilon * net.m * net.n * size * size * size);
+  return normals;
+}
+
+TrianglePolynomial<dvec4> corner_net(const TriangleNet& net, int a, int b) {
+  TrianglePolynomial<dvec4> sub(net.n - 1);
+  for (int i = 0; i < net.n; ++i) {
+    for (int j = 0; j < net.n - i; ++j) sub.at(i, j) = net.at(i + a, j + b);
+  }
+  return sub;
+}
+
+TrianglePolynomial<dvec3> triangle_normals(const TriangleNet& net) {
+  if (net.n < 1) return {};
+  const auto lines = multiply(corner_net(net, 0, 1), corner_net(net, 0, 0), join);
+  TrianglePolynomial<dvec3> normals = multiply(corner_net(net, 1, 0), lines, join_plane);
+  const double square = static_cast<double>(net.n * net.n);
+  for (dvec3& n : normals.coefficients) n *= square;
+  const double size = largest_norm(net.points);
+  flush_noise(normals.coefficients, 64.0 * epsilon * square * size * size * size);
+  return normals;
+}
+
+// How far inside the domain a limit is taken; its direction is off by about as much.
+constexpr double inset = 1e-13;
+
+dvec3 value_inside(const TensorPolynomial<dvec3>& p, double u, double v) {
+  double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
+  bernstein_values(p.m, std::clamp(u, inset, 1.0 - inset), bu);
+  bernstein_values(p.n, std::clamp(v, inset, 1.0 - inset), bv);
+  dvec3 sum(0.0);
+  for (int i = 0; i <= p.m; ++i) {
+    for (int j = 0; j <= p.n; ++j) sum += (bu[i] * bv[j]) * p.at(i, j);
+  }
+  return sum;
+}
+
+dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
+  const double a = std::max(u, inset);
+  const double b = std::max(v, inset);
+  const double c = std::max(1.0 - u - v, inset);
+  std::vector<double> pb(static_cast<std::size_t>(p.n) + 1, 1.0), pc = pb;
+  for (std::size_t k = 1; k < pb.size(); ++k) {
+    pb[k] = pb[k - 1] * b;
+    pc[k] = pc[k - 1] * c;
+  }
+  dvec3 sum(0.0);
+  double pa = 1.0;
+  for (int i = 0; i <= p.n; ++i) {
+    for (int j = 0; j <= p.n - i; ++j) {
+      const double powers = pb[static_cast<std::size_t>(j)] * pc[static_cast<std::size_t>(p.n - i - j)];
+      sum += (trinomial(p.n, i, j) * pa * powers) * p.at(i, j);
+    }
+    pa *= a;
+  }
+  return sum;
+}
+
+dvec3 unit_or_zero(const dvec3& n) {
+  // Scaled first: close to a singular point of high order the square of the length would underflow.
+  const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+  if (!(largest > 0.0) || !std::isfinite(largest)) return dvec3(0.0);
+  return glm::normalize(n / largest);
+}
+
+// The largest distance of a control point from the surface point at hand, weights included: the scale against
+// which a tangent is short.
+double spread(const Net& net, const dvec3& point) {
+  double largest = 0.0;
+  for (const dvec4& p : points_of(net)) largest = std::max(largest, glm::length(dvec3(p) - p.w * point));
+  return largest;
+}
+
+struct Tangents {
+  dvec3 point, a, b;  // a = w f_u, b = w f_v
+};
+
+Tangents tangents(const FirstOrder<dvec4>& f) {
+  const dvec3 p = dvec3(f.value) / f.value.w;
+  return {p, dvec3(f.du) - f.du.w * p, dvec3(f.dv) - f.dv.w * p};
+}
+
+int degree_of(const Net& net) {
+  if (const auto* t = std::get_if<TensorNet>(&net)) return std::max(t->m, t->n);
+  return std::get<TriangleNet>(net).n;
+}
+
+constexpr double singular = 1e-4;
+
+}  // namespace
+
+NormalPolynomial normal_polynomial(const Net& net) {
+  if (const auto* t = std::get_if<TensorNet>(&net)) return tensor_normals(*t);
+  return triangle_normals(std::get<TriangleNet>(net));
+}
+
+dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f) {
+  const Tangents t = tangents(f);
+  const dvec3 n = glm::cross(t.a, t.b);
+  const double size = glm::length(n);
+  // Rounding turns the cross product by about (error of a) |b| / |n| + |a| (error of b) / |n|.
+  const double noise = 8.0 * epsilon * (1.0 + glm::length(t.point)) * glm::length(f.value) * degree_of(net);
+  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-10 * size) return n / size;
+  const double scale = spread(net, t.point);
+  if (size > singular * scale * scale) return n / size;
+  const NormalPolynomial polynomial = normal_polynomial(net);
+  const dvec3 limit = std::visit([&](const auto& p) { return value_inside(p, u, v); }, polynomial);
+  return unit_or_zero(f.value.w < 0.0 ? -limit : limit);
+}
+
+dvec3 unit_normal(const Net& net, double u, double v) { return unit_normal(net, u, v, net_first(net, u, v)); }
+
+Curvature curvature(const Net& net, double u, double v) {
+  const Tangents t = tangents(net_first(net, u, v));
+  const double scale = spread(net, t.point);
+  if (!(glm::length(glm::cross(t.a, t.b)) > singular * scale * scale)) {
+    constexpr double step = 1e-4;
+    if (std::holds_alternative<TensorNet>(net)) {
+      u = std::clamp(u, step, 1.0 - step);
+      v = std::clamp(v, step, 1.0 - step);
+    } else {
+      const double a = std::max(u, step), b = std::max(v, step), c = std::max(1.0 - u - v, step);
+      u = a / (a + b + c);
+      v = b / (a + b + c);
+    }
+  }
+  const SurfaceJet s = surface_jet(net, u, v);
+  const dvec3 n = unit_normal(net, u, v);
+  const double e = glm::dot(s.du, s.du), f = glm::dot(s.du, s.dv), g = glm::dot(s.dv, s.dv);
+  const double l = glm::dot(s.duu, n), m = glm::dot(s.duv, n), k = glm::dot(s.dvv, n);
+  const double area = glm::dot(glm::cross(s.du, s.dv), glm::cross(s.du, s.dv));
+  return {(l * k - m * m) / area, (e * k - 2.0 * f * m + g * l) / (2.0 * area)};
+}
+
+NormalCone cone_of(const dvec3* vectors, std::size_t count) {
+  NormalCone cone;
+  dvec3 sum(0.0);
+  for (std::size_t k = 0; k < count; ++k) sum += unit_or_zero(vectors[k]);
+  cone.axis = unit_or_zero(sum);
+  if (cone.axis == dvec3(0.0)) return cone;
+  double least = 1.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (vectors[k] != dvec3(0.0)) least = std::min(least, glm::dot(cone.axis, unit_or_zero(vectors[k])));
+  }
+  // Directions in a cone of less than a half-space stay in it when they are added; in a wider one they do not.
+  cone.cos_angle = least > 0.0 ? std::max(least - 8.0 * epsilon, 0.0) : -1.0;
+  return cone;
+}
+
+NormalCone normal_cone(const Net& net) {
+  const NormalPolynomial polynomial = normal_polynomial(net);
+  NormalCone cone = std::visit(
+      [](const auto& p) { return cone_of(p.coefficients.data(), p.coefficients.size()); }, polynomial);
+  // N carries the sign of w^3.
+  if (points_of(net).front().w < 0.0) cone.axis = -cone.axis;
+  return cone;
+}
+
+}  // namespace rondure
