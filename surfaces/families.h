@@ -1,0 +1,14 @@
+// The patch families that are built in; each is a plugin whose source could be built as a shared object as well.
+#pragma once
+
+namespace rondure {
+
+class Registry;
+
+void register_bezier(Registry& registry);
+void register_sphere(Registry& registry);
+void register_sphere_cap(Registry& registry);
+void register_sphere_octant(Registry& registry);
+void register_sphere_tiling(Registry& registry);
+
+}  // namespace rondure

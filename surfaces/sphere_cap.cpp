@@ -1,0 +1,44 @@
+// The part of the unit sphere below a circle of latitude as one biquartic patch (Cobb 1988, section 5, Table 3);
+// z_max = 0 is the hemisphere of Table 2. The four corners, on the circle, are singular: the tangents are parallel.
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/api/registry.h"
+#include "surfaces/families.h"
+#include "surfaces/stereographic_patch.h"
+
+namespace rondure {
+namespace {
+
+// The least middle weight of the disk for which the 25 weights are not negative. The paper's 1 falls short from
+// z_max = 1/6 on.
+double least_middle_weight(double z) {
+  const double inner = (1.0 + 4.0 * z) / (2.0 * (1.0 - z));
+  return std::max(z / (1.0 - z), inner > 0.0 ? std::sqrt(inner) : 0.0);
+}
+
+Surface build(Params& params) {
+  const double z = params.number("z_max", 0.0, Range::open(-1.0, 1.0));
+  const double safe = std::max(1.0, 1.125 * least_middle_weight(z));
+  const double middle = params.number("middle_weight", safe, Range::positive());
+  const long double zl = z;
+  const long double radius = 2 * std::sqrt((1 + zl) / (1 - zl));
+  Surface surface;
+  // Table 3 is 9 (1 - z) times the composition, for integers in it; 1 - z keeps the weights near 8 for any z.
+  surface.patches.push_back(sphere_patch(disk(radius, middle), 1 - zl));
+  return surface;
+}
+
+}  // namespace
+
+void register_sphere_cap(Registry& registry) {
+  registry.add(SurfaceFamily{
+      "sphere_cap",
+      "the unit sphere below z_max as one biquartic patch, singular at its corners (Cobb 1988, section 5, Table 3)",
+      {{"z_max", "number in (-1, 1)", "0", "height of the boundary circle; 0 is the southern hemisphere of Table 2"},
+       {"middle_weight", "number > 0", "max(1, 1.125 times the least that keeps all weights positive)",
+        "weight of the planar disk's middle control point; moves parameters, not the surface (the paper has 1)"}},
+      build});
+}
+
+}  // namespace rondure
