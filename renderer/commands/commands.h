@@ -1,9 +1,9 @@
 // The sub-commands of the program, one file each.
 //
-// Every add_NAME describes its sub-command to CLI11 and hands its action to run_when_chosen. Actions run after the
-// whole command line is parsed and the plugins are loaded. They throw to fail: only main catches, prints
-// "rondure: error: ..." and returns 1. Results go to the named file or to standard output, all else to standard
-// error. For example:
+// Every add_NAME describes its sub-command to CLI11 and hands its action to run_when_chosen. Actions run
+// after the whole command line is parsed and the plugins are loaded. They throw to fail: only main catches,
+// prints "rondure: error: ..." and returns 1. Results go to the named file or to standard output, all else to
+// standard error. For example:
 //
 //   void add_info(CLI::App& program, CommandContext& context) {
 //     CLI::App* command = program.add_subcommand("info", "Print what a scene holds");

@@ -1,8 +1,8 @@
 // JSON text to a tree of Values that know their place in the file.
 //
-// The language is JSON (RFC 8259) with // and /* */ comments. Refused, with file, line and column: duplicate keys,
-// anything after the document, text that is not UTF-8, numbers beyond the range of a double (so NaN and infinities
-// cannot occur), nesting deeper than 256, files over 1 GiB.
+// The language is JSON (RFC 8259) with // and /* */ comments. Refused, with file, line and column: duplicate
+// keys, anything after the document, text that is not UTF-8, numbers beyond the range of a double (so NaN and
+// infinities cannot occur), nesting deeper than 256, files over 1 GiB.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,54 @@
+#include "renderer/scene/text_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "renderer/api/utf8.h"
+
+namespace rondure {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw SceneError(nullptr, {}, fmt::format("cannot read {}: {}", path, reason));
+}
+
+}  // namespace
+
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse(path, "it is a folder");
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) refuse(path, std::generic_category().message(errno));
+  std::string text;
+  char buffer[1 << 16];
+  std::size_t count = 0;
+  while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0) {
+    if (text.size() + count > max_bytes) refuse(path, fmt::format("it is larger than {} bytes", max_bytes));
+    text.append(buffer, count);
+  }
+  if (std::ferror(file.get())) refuse(path, std::generic_category().message(errno));
+  return text;
+}
+
+void refuse_bad_text(const SourceText& source) {
+  SourcePosition where{1, 1};
+  const std::string_view text = source.text;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text.substr(i));
+    if (length == 0) {
+      throw SceneError(&source, where,
+                       fmt::format("byte 0x{:02X} is not UTF-8 text", static_cast<unsigned char>(text[i])));
+    }
+    where = text[i] == '\n' ? SourcePosition{where.line + 1, 1}
+                            : SourcePosition{where.line, where.column + static_cast<int>(length)};
+    i += length;
+  }
+}
+
+}  // namespace rondure
