@@ -1,4 +1,5 @@
-// The patch families that are built in; each is a plugin whose source could be built as a shared object as well.
+// The patch families that are built in; each is a plugin whose source could be built as a shared object as
+// well.
 #pragma once
 
 namespace rondure {

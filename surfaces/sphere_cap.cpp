@@ -1,5 +1,6 @@
-// The part of the unit sphere below a circle of latitude as one biquartic patch (Cobb 1988, section 5, Table 3);
-// z_max = 0 is the hemisphere of Table 2. The four corners, on the circle, are singular: the tangents are parallel.
+// The part of the unit sphere below a circle of latitude as one biquartic patch (Cobb 1988, section 5, Table
+// 3); z_max = 0 is the hemisphere of Table 2. The four corners, on the circle, are singular: the tangents are
+// parallel.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +11,8 @@
 namespace rondure {
 namespace {
 
-// The least middle weight of the disk for which the 25 weights are not negative. The paper's 1 falls short from
-// z_max = 1/6 on.
+// The least middle weight of the disk for which the 25 weights are not negative. The paper's 1 falls short
+// from z_max = 1/6 on.
 double least_middle_weight(double z) {
   const double inner = (1.0 + 4.0 * z) / (2.0 * (1.0 - z));
   return std::max(z / (1.0 - z), inner > 0.0 ? std::sqrt(inner) : 0.0);
@@ -34,10 +35,13 @@ Surface build(Params& params) {
 void register_sphere_cap(Registry& registry) {
   registry.add(SurfaceFamily{
       "sphere_cap",
-      "the unit sphere below z_max as one biquartic patch, singular at its corners (Cobb 1988, section 5, Table 3)",
-      {{"z_max", "number in (-1, 1)", "0", "height of the boundary circle; 0 is the southern hemisphere of Table 2"},
+      "the unit sphere below z_max as one biquartic patch, singular at its corners (Cobb 1988, section 5, "
+      "Table 3)",
+      {{"z_max", "number in (-1, 1)", "0",
+        "height of the boundary circle; 0 is the southern hemisphere of Table 2"},
        {"middle_weight", "number > 0", "max(1, 1.125 times the least that keeps all weights positive)",
-        "weight of the planar disk's middle control point; moves parameters, not the surface (the paper has 1)"}},
+        "weight of the planar disk's middle control point; moves parameters, not the surface (the paper has "
+        "1)"}},
       build});
 }
 

@@ -14,7 +14,8 @@ constexpr double half_root = 0.70710678118654752440;
 // The quarter circle from (1, 0) to (0, 1): (x, y, w).
 constexpr double quarter[3][3] = {{1.0, 0.0, 1.0}, {half_root, half_root, half_root}, {0.0, 1.0, 1.0}};
 
-// Product of quarter circles, in longitude along u and in latitude along v. The middle weight is the exact 1/2.
+// Product of quarter circles, in longitude along u and in latitude along v. The middle weight is the exact
+// 1/2.
 TensorNet first_octant() {
   const auto product = [](double a, double b) { return a == half_root && b == half_root ? 0.5 : a * b; };
   TensorNet net(2, 2);

@@ -1,5 +1,5 @@
-// The unit sphere in biquartic patches: two hemispheres (Cobb 1988, Table 2) or six faces of a cube (Table 4).
-// Neighbours share the control points of their common edge bit for bit, in reverse order.
+// The unit sphere in biquartic patches: two hemispheres (Cobb 1988, Table 2) or six faces of a cube (Table
+// 4). Neighbours share the control points of their common edge bit for bit, in reverse order.
 #include <string>
 
 #include "renderer/api/registry.h"
@@ -29,9 +29,9 @@ struct AxisRotation {
 };
 
 // Turns of the south face (about -z) to the faces about -z, +z, -y, +y, -x, +x. All have determinant 1.
-constexpr AxisRotation face_rotations[6] = {
-    {{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}}, {{0, 2, 1}, {1.0, 1.0, -1.0}},
-    {{0, 2, 1}, {1.0, -1.0, 1.0}}, {{2, 1, 0}, {1.0, 1.0, -1.0}},  {{2, 1, 0}, {-1.0, 1.0, 1.0}}};
+constexpr AxisRotation face_rotations[6] = {{{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}},
+                                            {{0, 2, 1}, {1.0, 1.0, -1.0}}, {{0, 2, 1}, {1.0, -1.0, 1.0}},
+                                            {{2, 1, 0}, {1.0, 1.0, -1.0}}, {{2, 1, 0}, {-1.0, 1.0, 1.0}}};
 
 TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
   TensorNet out = net;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <limits>
 
 #include "renderer/bezier/tensor.h"
@@ -11,14 +10,14 @@
 namespace rondure {
 namespace {
 
-// Each level halves both directions. A weight that is positive by 1% of its largest coefficient is resolved within
-// six levels; a thin set of pieces along a nearly vanishing weight may need more.
+// Each level halves both directions. A weight that is positive by 1% of its largest coefficient is resolved
+// within six levels; a thin set of pieces along a nearly vanishing weight may need more.
 constexpr int deepest = 12;
 // Pieces looked at before giving up.
 constexpr int most_pieces = 20000;
 
 struct Search {
-  Box box{dvec3(std::numeric_limits<double>::infinity()), dvec3(-std::numeric_limits<double>::infinity())};
+  Box box;
   int pieces = 0;
 };
 

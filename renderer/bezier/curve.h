@@ -1,5 +1,5 @@
-// Univariate Bernstein polynomials in strided arrays: the pieces of which the tensor-product operations are made.
-// Degrees up to max_degree; input and output may be the same array, with the same stride.
+// Univariate Bernstein polynomials in strided arrays: the pieces of which the tensor-product operations are
+// made. Degrees up to max_degree; input and output may be the same array, with the same stride.
 #pragma once
 
 #include "renderer/bezier/bernstein.h"

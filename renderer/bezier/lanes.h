@@ -1,5 +1,5 @@
-// Coefficients as short vectors that the compiler keeps in SIMD registers: the same arithmetic in the same order
-// as on the GLM types, component by component, only faster.
+// Coefficients as short vectors that the compiler keeps in SIMD registers: the same arithmetic in the same
+// order as on the GLM types, component by component, only faster.
 #pragma once
 
 #include <cstring>

@@ -41,7 +41,9 @@ Line join(const dvec4& g, const dvec4& h) {
 }
 
 // Normal part of the plane through a point and a line: F_w (G x H) + G_w (H x F) + H_w (F x G).
-dvec3 join_plane(const dvec4& f, const Line& gh) { return f.w * gh.moment + glm::cross(dvec3(f), gh.direction); }
+dvec3 join_plane(const dvec4& f, const Line& gh) {
+  return f.w * gh.moment + glm::cross(dvec3(f), gh.direction);
+}
 
 double largest_norm(const std::vector<dvec4>& points) {
   double largest = 0.0;
@@ -66,8 +68,8 @@ TensorPolynomial<dvec4> corner_net(const TensorNet& net, int a, int b) {
   return sub;
 }
 
-// N = m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the wedge product of
-// the sub-nets F_ab.
+// N = m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the wedge
+// product of the sub-nets F_ab.
 TensorPolynomial<dvec3> tensor_normals(const TensorNet& net) {
   if (net.m < 1 || net.n < 1) return {};
   const auto f00 = corner_net(net, 0, 0);
@@ -231,7 +233,8 @@ NormalCone cone_of(const dvec3* vectors, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     if (vectors[k] != dvec3(0.0)) least = std::min(least, glm::dot(cone.axis, unit_or_zero(vectors[k])));
   }
-  // Directions in a cone of less than a half-space stay in it when they are added; in a wider one they do not.
+  // Directions in a cone of less than a half-space stay in it when they are added; in a wider one they do
+  // not.
   cone.cos_angle = least > 0.0 ? std::max(least - 8.0 * epsilon, 0.0) : -1.0;
   return cone;
 }

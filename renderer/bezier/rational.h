@@ -1,4 +1,5 @@
-// The rational surface of a control net: points, derivatives, normals, curvature. Parameters as in api/patch.h.
+// The rational surface of a control net: points, derivatives, normals, curvature. Parameters as in
+// api/patch.h.
 #pragma once
 
 #include "renderer/api/patch.h"
@@ -18,10 +19,10 @@ struct SurfaceJet {
 };
 SurfaceJet surface_jet(const Net& net, double u, double v);
 
-// d/du x d/dv, normalised. Where that vanishes (a corner with parallel tangents, a collapsed edge) the limit from
-// inside the domain, taken from the Bernstein form of the normal polynomial: there the terms that vanish are
-// exactly zero and the rest does not cancel, so the direction stays good beside the singularity too.
-// Zero where the surface has no normal at all.
+// d/du x d/dv, normalised. Where that vanishes (a corner with parallel tangents, a collapsed edge) the limit
+// from inside the domain, taken from the Bernstein form of the normal polynomial: there the terms that vanish
+// are exactly zero and the rest does not cancel, so the direction stays good beside the singularity too. Zero
+// where the surface has no normal at all.
 dvec3 unit_normal(const Net& net, double u, double v);
 // The same where net_first(net, u, v) is at hand already.
 dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& first);

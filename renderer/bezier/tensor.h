@@ -1,8 +1,10 @@
-// Tensor-product Bernstein polynomials of degree (m, n), over any coefficient type that forms linear combinations
-// (double, dvec2, dvec3, dvec4). Coefficient (i, j) stands at net[i * (n + 1) + j], i along u, j along v.
+// Tensor-product Bernstein polynomials of degree (m, n), over any coefficient type that forms linear
+// combinations (double, dvec2, dvec3, dvec4). Coefficient (i, j) stands at net[i * (n + 1) + j], i along u, j
+// along v.
 //
-// The evaluators take the degrees as template arguments too; with `dynamic` they use the run-time ones, otherwise
-// every loop has a fixed count. Values are good to a few eps * max |net| on [0, 1]^2 and stay valid outside.
+// The evaluators take the degrees as template arguments too; with `dynamic` they use the run-time ones,
+// otherwise every loop has a fixed count. Values are good to a few eps * max |net| on [0, 1]^2 and stay valid
+// outside.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +43,8 @@ T tensor_value(const T* net, int m, int n, double u, double v) {
   return sum;
 }
 
-// The four sums over the corner sub-nets of degree (m - 1, n - 1) give value and derivatives at once: the last step
-// of de Casteljau's algorithm in both directions.
+// The four sums over the corner sub-nets of degree (m - 1, n - 1) give value and derivatives at once: the
+// last step of de Casteljau's algorithm in both directions.
 template <int M = dynamic, int N = dynamic, class T>
 FirstOrder<T> tensor_first(const T* net, int m, int n, double u, double v) {
   const int deg_u = M >= 0 ? M : m;
@@ -142,8 +144,9 @@ SecondOrder<T> tensor_second(const T* net, int m, int n, double u, double v) {
   return s;
 }
 
-// The same polynomial over [u0, u1] x [v0, v1], as a net over the unit square; the limits may lie anywhere and
-// in either order. Neighbours cut at the same parameter agree there bit for bit. `out` must not overlap `net`.
+// The same polynomial over [u0, u1] x [v0, v1], as a net over the unit square; the limits may lie anywhere
+// and in either order. Neighbours cut at the same parameter agree there bit for bit. `out` must not overlap
+// `net`.
 template <class T>
 void tensor_restrict(const T* net, int m, int n, double u0, double u1, double v0, double v1, T* out) {
   const int stride = n + 1;

@@ -5,9 +5,9 @@
 
 namespace rondure {
 
-// Every control point multiplied by `matrix` (GLM's columns; a point is a column). Affine and projective maps are
-// exact on the rational surface. Where the map mirrors (negative determinant) a parameter is reversed, u on a
-// tensor net and u with v on a triangle, so that outward normals stay outward.
+// Every control point multiplied by `matrix` (GLM's columns; a point is a column). Affine and projective maps
+// are exact on the rational surface. Where the map mirrors (negative determinant) a parameter is reversed, u
+// on a tensor net and u with v on a triangle, so that outward normals stay outward.
 Net transformed(const Net& net, const dmat4& matrix);
 
 // The same surface with d/du x d/dv turned round.

@@ -1,5 +1,5 @@
-// Triangular Bernstein polynomials of degree n: sum of n!/(i! j! k!) u^i v^j w^k net[triangle_index(n, i, j)] with
-// k = n - i - j and w = 1 - u - v. Derivatives are with respect to (u, v), w dependent.
+// Triangular Bernstein polynomials of degree n: sum of n!/(i! j! k!) u^i v^j w^k net[triangle_index(n, i, j)]
+// with k = n - i - j and w = 1 - u - v. Derivatives are with respect to (u, v), w dependent.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -122,9 +122,9 @@ void triangle_step(T* a, int n, dvec2 at) {
 
 }  // namespace detail
 
-// The same polynomial over the triangle with corners (u, v) = corners[0] where the new u = 1, corners[1] where the
-// new v = 1, corners[2] where the new w = 1: coefficient (i, j, k) is the blossom at the three corners, i, j and k
-// times. `out` must not overlap `net`.
+// The same polynomial over the triangle with corners (u, v) = corners[0] where the new u = 1, corners[1]
+// where the new v = 1, corners[2] where the new w = 1: coefficient (i, j, k) is the blossom at the three
+// corners, i, j and k times. `out` must not overlap `net`.
 template <class T>
 void triangle_restrict(const T* net, int n, const dvec2 corners[3], T* out) {
   constexpr int size = triangle_size(max_degree);
@@ -143,8 +143,8 @@ void triangle_restrict(const T* net, int n, const dvec2 corners[3], T* out) {
   }
 }
 
-// Three triangles that meet at (u, v): `a` has it for its corner u = 1, `b` for v = 1, `c` for w = 1; the other
-// corners and the orientation stay.
+// Three triangles that meet at (u, v): `a` has it for its corner u = 1, `b` for v = 1, `c` for w = 1; the
+// other corners and the orientation stay.
 template <class T>
 void triangle_split_at(const T* net, int n, double u, double v, T* a, T* b, T* c) {
   const dvec2 p(u, v), cu(1.0, 0.0), cv(0.0, 1.0), cw(0.0, 0.0);
