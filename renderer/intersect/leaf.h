@@ -20,6 +20,7 @@ struct Leaf {
   dvec4 center, da, db;        // S and its derivatives, homogeneous
   dvec4 spread_a, spread_b;    // |dS/da - da| and |dS/db - db|, componentwise
   dvec2 corner, edge_a, edge_b;
+  NetScale scale;              // bounds sum |P_ij| B_ij over the leaf: what evaluation errors are relative to
   std::int32_t patch = 0;
 
   dvec2 to_patch(dvec2 p) const { return corner + p.x * edge_a + p.y * edge_b; }
@@ -32,8 +33,7 @@ inline TriangleCell triangle_of(const Leaf& leaf) {
 
 struct LeafSet {
   std::vector<Leaf> leaves;
-  std::vector<Box> boxes;         // one a leaf, in the surface's frame; contain the leaf's control points
-  std::vector<NetScale> scales;   // one a patch
+  std::vector<Box> boxes;  // one a leaf, in the surface's frame; contain the leaf's control points
 };
 
 // Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular points,

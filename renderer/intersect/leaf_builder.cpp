@@ -63,7 +63,9 @@ template <class Shape>
 class Builder {
  public:
   Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, LeafSet& out)
-      : shape_(shape), net_(net), patch_(patch), out_(out), points_(net.size()), inner_(net.size()) {}
+      : shape_(shape), net_(net), patch_(patch), out_(out), magnitudes_(net.size()), points_(net.size()), inner_(net.size()) {
+    for (std::size_t k = 0; k < net.size(); ++k) magnitudes_[k] = glm::abs(net[k]);
+  }
 
   void divide(const typename Shape::Cell& cell, int depth) {
     const dvec4* net = net_.data();
@@ -80,6 +82,7 @@ class Builder {
     linearise(cell, leaf);
     const bool tame = positive && contraction_head_on(leaf) < target_contraction;
     if (tame || (positive && depth >= singular_depth)) {
+      leaf.scale = scale_of(cell);
       out_.leaves.push_back(leaf);
       out_.boxes.push_back(box);
       return;
@@ -101,8 +104,19 @@ class Builder {
   const std::vector<dvec4>& net_;
   const int patch_;
   LeafSet& out_;
+  std::vector<dvec4> magnitudes_;  // |P_ij|, componentwise
   std::vector<dvec4> points_, inner_;
   dvec3 size_a_{0.0}, size_b_{0.0};
+
+  NetScale scale_of(const typename Shape::Cell& cell) {
+    shape_.restrict_to(magnitudes_.data(), cell, inner_.data());
+    NetScale scale;
+    for (const dvec4& p : inner_) {
+      scale.position = std::fmax(scale.position, largest(dvec3(p)));
+      scale.weight = std::fmax(scale.weight, std::fabs(p.w));
+    }
+    return scale;
+  }
 
   void linearise(const typename Shape::Cell& cell, Leaf& leaf) {
     const dvec2 middle = Shape::to_patch(cell, Shape::center());
@@ -129,15 +143,10 @@ class Builder {
   }
 };
 
-NetScale checked_scale(const std::vector<dvec4>& points, int patch) {
-  NetScale scale;
-  for (const dvec4& p : points) {
-    const double xyz = largest(dvec3(p)), w = std::fabs(p.w);
-    if (!std::isfinite(xyz) || !std::isfinite(w)) throw std::runtime_error(fmt::format("patch {}: a control point is not finite", patch));
-    scale.position = std::fmax(scale.position, xyz);
-    scale.weight = std::fmax(scale.weight, w);
-  }
-  return scale;
+void check_finite(const std::vector<dvec4>& points, int patch) {
+  for (const dvec4& p : points)
+    if (!std::isfinite(largest(dvec3(p))) || !std::isfinite(p.w))
+      throw std::runtime_error(fmt::format("patch {}: a control point is not finite", patch));
 }
 
 }  // namespace
@@ -146,7 +155,7 @@ LeafSet build_leaves(const std::vector<Net>& patches) {
   LeafSet out;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const int patch = static_cast<int>(k);
-    out.scales.push_back(checked_scale(points_of(patches[k]), patch));
+    check_finite(points_of(patches[k]), patch);
     if (const auto* tensor = std::get_if<TensorNet>(&patches[k])) {
       if (std::max(tensor->m, tensor->n) > max_degree)
         throw std::runtime_error(fmt::format("patch {}: degree ({}, {}) is above {}", patch, tensor->m, tensor->n, max_degree));

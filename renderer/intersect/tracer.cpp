@@ -94,8 +94,7 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   const TracedSurface& traced = (*q.surfaces)[surface];
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
-  const NetScale& scale = compiled.set.scales[static_cast<std::size_t>(leaf.patch)];
-  const double error = residual_bound(scale, q.local);
+  const double error = residual_bound(leaf.scale, q.local);
   RootList roots;
   solve_leaf(traced.solver, leaf, net, q.local, error, roots, thread_counts());
   for (const Root& root : roots) {
@@ -103,7 +102,7 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     const double w = s.value.w;
     const dvec3 x = dvec3(s.value) / w;
     const dvec3 normal = glm::cross(dvec3(s.du) - x * s.du.w, dvec3(s.dv) - x * s.dv.w);
-    const Crossing c = make_crossing(q.local, x, normal, error / w, scale.position / w, root.tangent);
+    const Crossing c = make_crossing(q.local, x, normal, error / w, leaf.scale.position / w, root.tangent);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }
   return false;
@@ -253,7 +252,7 @@ TracerStatistics Tracer::statistics() const {
   for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
     s.patches += self.surfaces[k].surface.patches.size();
     for (const Net& net : self.surfaces[k].surface.patches) s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
-    s.bytes += self.compiled[k].set.leaves.size() * sizeof(Leaf) + self.compiled[k].set.scales.size() * sizeof(NetScale);
+    s.bytes += self.compiled[k].set.leaves.size() * sizeof(Leaf);
   }
   if (self.embree) s.bytes += self.embree->bytes();
   return s;
