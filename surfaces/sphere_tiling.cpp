@@ -28,10 +28,10 @@ struct AxisRotation {
   double sign[3];
 };
 
-// Turns of the south face (about -z) to the faces about -z, +z, -y, +y, -x, +x. All have determinant 1.
-constexpr AxisRotation face_rotations[6] = {{{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}},
-                                            {{0, 2, 1}, {1.0, 1.0, -1.0}}, {{0, 2, 1}, {1.0, -1.0, 1.0}},
-                                            {{2, 1, 0}, {1.0, 1.0, -1.0}}, {{2, 1, 0}, {-1.0, 1.0, 1.0}}};
+// Turns of the south face (about -z) to the faces about -z, +z, +x, -x, +y, -y. All have determinant 1.
+constexpr AxisRotation face_rotations[6] = {
+    {{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}}, {{2, 1, 0}, {-1.0, 1.0, 1.0}},
+    {{2, 1, 0}, {1.0, 1.0, -1.0}}, {{0, 2, 1}, {1.0, -1.0, 1.0}},  {{0, 2, 1}, {1.0, 1.0, -1.0}}};
 
 TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
   TensorNet out = net;
