@@ -1,0 +1,58 @@
+// Light that is scattered once, seen directly or through any chain of mirrors and glass.
+
+#include "integrators/integrators.h"
+#include "renderer/shading/direct_light.h"
+
+namespace rondure {
+namespace {
+
+class Direct : public Integrator {
+ public:
+  explicit Direct(int max_depth) : max_depth_(max_depth) {}
+
+  dvec3 radiance(const World& world, const Ray& camera_ray, const Hit& first,
+                 Sampler& sampler) const override {
+    dvec3 result(0.0), throughput(1.0);
+    Ray ray = camera_ray;
+    Hit hit = first;
+    for (int depth = 0;; ++depth) {
+      result += throughput * found_light(world, ray, hit, nullptr);
+      if (!hit || depth == max_depth_) return result;
+      sampler.start_block(depth + 1);
+      const double choice = sampler.next_1d(), lobe = sampler.next_1d();
+      const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
+      const dvec3 out = -ray.direction;
+      const auto scattered = sample_scattering(world.material(hit), hit.normal, out, lobe, scatter_uv);
+      if (!is_specular(world.material(hit))) {
+        result += throughput * sampled_light(world, hit, out, choice, light_uv);
+        if (!scattered) return result;
+        const Ray last = spawn(hit, scattered->direction);
+        const Hit met = world.tracer().closest(last);
+        return result + throughput * scattered->weight * found_light(world, last, met, &*scattered);
+      }
+      if (!scattered) return result;
+      throughput *= scattered->weight;
+      ray = spawn(hit, scattered->direction);
+      hit = world.tracer().closest(ray);
+    }
+  }
+
+ private:
+  int max_depth_;
+};
+
+std::unique_ptr<Integrator> create(Params& params) {
+  return std::make_unique<Direct>(static_cast<int>(params.integer("max_depth", 32, 0, 100000)));
+}
+
+}  // namespace
+
+void register_direct(Registry& registry) {
+  registry.add(IntegratorFactory{"direct",
+                                 "Direct light only: scattered once, after any number of mirrors and glass.",
+                                 {{"max_depth", "integer in [0, 100000]", "32",
+                                   "longest chain of mirrors and glass, and the last scattering"}},
+                                 create});
+}
+
+}  // namespace rondure

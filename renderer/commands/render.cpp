@@ -1,0 +1,203 @@
+// rondure render: a scene becomes an OpenEXR file, and a PNG preview if wanted.
+
+#include "renderer/render/render.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "renderer/api/version.h"
+#include "renderer/commands/commands.h"
+#include "renderer/commands/scene_options.h"
+#include "renderer/film/atomic_file.h"
+#include "renderer/film/exr.h"
+#include "renderer/film/image.h"
+#include "renderer/film/preview.h"
+#include "renderer/film/resume_state.h"
+#include "renderer/render/progress.h"
+#include "renderer/scene/scene_reader.h"
+
+namespace rondure {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string output, png;
+  std::string crop;
+  double exposure = 0.0;
+  int threads = 0;
+  bool resume = false, quiet = false;
+};
+
+constexpr std::int64_t most_samples = 1 << 30;
+// Samples of a pass with --resume. After each the state may be saved, or the render interrupted.
+constexpr std::uint32_t pass_samples = 4 * Film::chunk;
+constexpr std::chrono::seconds save_interval{60};
+
+std::atomic<bool> interrupted{false};
+
+// While it lives, the first Ctrl-C asks the render to stop; a second one ends the program as usual.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    interrupted = false;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &before_);
+  }
+  ~InterruptGuard() { sigaction(SIGINT, &before_, nullptr); }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
+std::optional<Window> read_crop(const std::string& text) {
+  if (text.empty()) return {};
+  Window w;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%d,%d,%d,%d%n", &w.x0, &w.y0, &w.x1, &w.y1, &used) != 4 ||
+      static_cast<std::size_t>(used) != text.size()) {
+    throw std::runtime_error(fmt::format("--crop wants x0,y0,x1,y1, four integers, not \"{}\"", text));
+  }
+  return w;
+}
+
+// Everything is read but the count of samples, which is no part of the scene's hash: a picture taken further
+// is of the same scene.
+Scene read(const CommandContext& context, const Options& options) {
+  SceneOverrides overrides = options.scene.overrides;
+  overrides.spp.reset();
+  Scene scene = read_scene(options.scene.path, context.registry, overrides);
+  if (const auto spp = options.scene.overrides.spp) {
+    if (*spp < 1 || *spp > most_samples) {
+      throw std::runtime_error(fmt::format("--spp must be in [1, {}], not {}", most_samples, *spp));
+    }
+    scene.sampling.spp = static_cast<int>(*spp);
+  }
+  return scene;
+}
+
+std::string solver_names(const Scene& scene) {
+  std::set<std::string> names;
+  for (const SceneObject& object : scene.objects) {
+    names.insert(object.traced.solver == Solver::newton ? "newton" : "clipping");
+  }
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+// What a state file must agree on before it is taken up.
+std::string resume_key(const Scene& scene, const Film& film) {
+  const Window& w = film.window();
+  return fmt::format("rondure {}, scene {:016x}, seed {}, {} x {}, window {},{},{},{}", version, scene.hash,
+                     scene.sampling.seed, film.width(), film.height(), w.x0, w.y0, w.x1, w.y1);
+}
+
+// One pass over the picture, or with --resume several and a state file beside the output.
+void render_film(Film& film, const Scene& scene, const World& world, RenderOptions render,
+                 const Options& options) {
+  const auto target = static_cast<std::uint32_t>(scene.sampling.spp);
+  const std::string state = resume_path(options.output), key = resume_key(scene, film);
+  if (options.resume && read_resume_state(state, key, film) && film.samples > target) {
+    throw std::runtime_error(
+        fmt::format("{}: already holds {} samples a pixel, more than the {} asked for; raise --spp", state,
+                    film.samples, target));
+  }
+  const std::uint32_t left = target - film.samples;
+  const std::uint32_t step = options.resume ? pass_samples : std::max(left, 1u);
+  const std::uint32_t passes = std::max(1u, (left + step - 1) / step);
+  Progress progress(fmt::format("{} spp", target), film.whole.size() * passes, progress_style(options.quiet));
+  render.progress = [&](std::size_t pixels) { progress.advance(pixels); };
+  // With --resume a pass is brought to its end, so that its work can be kept.
+  if (!options.resume) render.stop = [] { return interrupted.load(); };
+
+  const InterruptGuard guard;
+  auto saved = std::chrono::steady_clock::now();
+  do {
+    const std::uint32_t next = target - film.samples > step ? film.samples + step : target;
+    add_samples(film, next, scene, world, render);
+    if (!options.resume) continue;
+    const auto now = std::chrono::steady_clock::now();
+    if (interrupted || film.samples == target || now - saved > save_interval) {
+      write_resume_state(state, key, film);
+      saved = now;
+    }
+    if (interrupted && film.samples < target) {
+      progress.clear();
+      throw std::runtime_error(
+          fmt::format("interrupted; {} samples a pixel are kept in {}", film.whole_samples(), state));
+    }
+  } while (film.samples < target);
+}
+
+void note(const Options& options, const std::string& text) {
+  if (!options.quiet) fmt::print(stderr, "{}\n", text);
+}
+
+void render(const CommandContext& context, Options options) {
+  const auto start = std::chrono::steady_clock::now();
+  RenderOptions settings;
+  settings.threads = options.threads;
+  settings.crop = read_crop(options.crop);
+  if (options.output.empty()) {
+    options.output = std::filesystem::path(options.scene.path).stem().string() + ".exr";
+  }
+  const Scene scene = read(context, options);
+  Film film = make_film(scene, settings);
+  check_writable(options.output);
+  if (!options.png.empty()) check_writable(options.png);
+  const Tracer tracer = make_tracer(scene);
+  const World world = make_world(scene, tracer);
+  render_film(film, scene, world, settings, options);
+
+  ExrHeader header{scene.hash, scene.sampling.seed, scene.integrator_name, solver_names(scene), scene.camera};
+  write_exr(options.output, film, header);
+  if (!options.png.empty()) {
+    write_png(options.png, film.window().width(), film.window().height(), preview(film, options.exposure));
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  note(options, fmt::format("{}: {} x {}, {} spp, {}", options.output, film.window().width(),
+                            film.window().height(), film.samples, duration_text(elapsed.count())));
+  if (film.rejected > 0) {
+    throw std::runtime_error(
+        fmt::format("{} of the picture's samples were negative or not finite and count as black; "
+                    "the picture in {} is not to be trusted",
+                    film.rejected, options.output));
+  }
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, CommandContext& context) {
+  CLI::App* command = program.add_subcommand("render", "Render a scene to an OpenEXR file");
+  auto options = std::make_shared<Options>();
+  add_scene_options(*command, options->scene);
+  add_sampling_options(*command, options->scene);
+  command->add_option("-o,--output", options->output,
+                      "OpenEXR file (the scene's name in this folder by default)");
+  command->add_option("--png", options->png, "Also write an 8-bit sRGB preview");
+  command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops");
+  command
+      ->add_option("--threads", options->threads,
+                   "Threads (all processors by default); no effect on the picture")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--crop", options->crop,
+                      "x0,y0,x1,y1: render the pixels x0 <= x < x1, y0 <= y < y1 alone");
+  command->add_flag("--resume", options->resume,
+                    "Keep the samples in OUTPUT.state, and go on from there if it exists");
+  command->add_flag("--quiet", options->quiet, "No progress and no notes");
+  run_when_chosen(*command, context, [&context, options] { render(context, *options); });
+}
+
+}  // namespace rondure

@@ -1,0 +1,160 @@
+#include "renderer/render/render.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace rondure {
+namespace {
+
+constexpr int tile_side = 16;
+
+// All that a pixel needs and no pixel changes.
+struct Job {
+  const Scene& scene;
+  const World& world;
+  const RenderOptions& options;
+  double aspect;
+  std::uint32_t from, to;  // sample indices
+};
+
+dvec2 film_point(const Job& job, double x, double y) {
+  return {x / job.scene.film.width, y / job.scene.film.height};
+}
+
+struct PixelResult {
+  PixelSums rest;
+  std::uint64_t rejected = 0, whole_rejected = 0;
+};
+
+bool is_radiance(const dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && v.x >= 0.0 && v.y >= 0.0 &&
+         v.z >= 0.0;
+}
+
+// One sample; false when its colour had to be dropped.
+bool take_sample(const Job& job, int x, int y, std::uint32_t index, FilmSample& sample) {
+  Sampler sampler(job.scene.sampling.seed, x, y, index);
+  const dvec2 offset = job.scene.film.filter.sample(sampler.next_2d());
+  const dvec2 lens = sampler.next_2d();
+  const dvec2 point = film_point(job, x + 0.5 + offset.x, y + 0.5 + offset.y);
+  const Ray ray = camera_ray(job.scene.camera, job.aspect, point, lens);
+  const Hit first = job.world.tracer().closest(ray);
+  if (first) {
+    sample.alpha = 1.0;
+    sample.normal = first.normal;
+    sample.albedo = albedo(job.world.material(first), first.normal, -ray.direction);
+  }
+  sample.color = job.scene.integrator->radiance(job.world, ray, first, sampler);
+  if (is_radiance(sample.color)) return true;
+  sample.color = dvec3(0.0);
+  return false;
+}
+
+PixelGeometry take_geometry(const Job& job, int x, int y) {
+  const Camera& camera = job.scene.camera;
+  const Ray ray = camera_ray(camera, job.aspect, film_point(job, x + 0.5, y + 0.5), {0.5, 0.5});
+  const Hit hit = job.world.tracer().closest(ray);
+  if (!hit) return {};
+  const double depth = glm::dot(hit.point - camera.origin, camera.forward);
+  return {hit.point, depth, {hit.u, hit.v}, hit.patch, hit.surface};
+}
+
+// Adds the job's samples to the pixel's whole chunks and returns what is left over.
+PixelResult render_pixel(const Job& job, int x, int y, PixelSums& whole) {
+  PixelResult result;
+  for (std::uint32_t i = job.from; i < job.to; ++i) {
+    FilmSample sample;
+    if (!take_sample(job, x, y, i, sample)) ++result.rejected;
+    result.rest.add(sample);
+    if ((i + 1) % Film::chunk == 0) {
+      whole.add(result.rest);
+      result.rest = {};
+      result.whole_rejected = result.rejected;
+      if (job.options.stop && job.options.stop()) throw Interrupted{};
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Tracer make_tracer(const Scene& scene) {
+  std::vector<TracedSurface> surfaces;
+  for (const SceneObject& object : scene.objects) surfaces.push_back(object.traced);
+  return Tracer(std::move(surfaces));
+}
+
+World make_world(const Scene& scene, const Tracer& tracer) {
+  std::vector<int> materials;
+  for (const SceneObject& object : scene.objects) materials.push_back(object.material);
+  return World(tracer, scene.materials, scene.lights, std::move(materials));
+}
+
+Film make_film(const Scene& scene, const RenderOptions& options) {
+  const int width = scene.film.width, height = scene.film.height;
+  const Window all{0, 0, width, height};
+  const Window w = options.crop.value_or(all);
+  if (w.x0 < 0 || w.y0 < 0 || w.x1 > width || w.y1 > height || w.x0 >= w.x1 || w.y0 >= w.y1) {
+    throw std::invalid_argument(
+        fmt::format("the crop {},{},{},{} must be a window of 0,0,{},{}: x0,y0 within, x1,y1 just beyond",
+                    w.x0, w.y0, w.x1, w.y1, width, height));
+  }
+  return Film(width, height, w);
+}
+
+void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const World& world,
+                 const RenderOptions& options) {
+  // Samples of an unfinished chunk are taken again: the chunk's sum needs its beginning.
+  const std::uint32_t from = film.whole_samples();
+  const double aspect = static_cast<double>(film.width()) / film.height();
+  const Job job{scene, world, options, aspect, from, samples};
+  const Window w = film.window();
+  const int across = (w.width() + tile_side - 1) / tile_side, down = (w.height() + tile_side - 1) / tile_side;
+  film.rest.assign(samples % Film::chunk != 0 ? film.whole.size() : 0, {});
+  std::atomic<std::uint64_t> rejected{film.whole_rejected}, whole_rejected{film.whole_rejected};
+
+  const auto render_tile = [&](int tile) {
+    const int x0 = w.x0 + tile % across * tile_side, y0 = w.y0 + tile / across * tile_side;
+    const int x1 = std::min(x0 + tile_side, w.x1), y1 = std::min(y0 + tile_side, w.y1);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const std::size_t at = film.index(x, y);
+        if (!film.has_geometry) film.geometry[at] = take_geometry(job, x, y);
+        const PixelResult result = render_pixel(job, x, y, film.whole[at]);
+        if (!film.rest.empty()) film.rest[at] = result.rest;
+        rejected += result.rejected;
+        whole_rejected += result.whole_rejected;
+      }
+      if (options.stop && options.stop()) throw Interrupted{};
+      if (options.progress) options.progress(static_cast<std::size_t>(x1 - x0));
+    }
+  };
+
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, across * down),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int tile = range.begin(); tile < range.end(); ++tile) render_tile(tile);
+        },
+        tbb::simple_partitioner{});
+  });
+  film.has_geometry = true;
+  film.samples = samples;
+  film.rejected = rejected;
+  film.whole_rejected = whole_rejected;
+}
+
+}  // namespace rondure

@@ -1,0 +1,25 @@
+#include "renderer/shading/direct_light.h"
+
+namespace rondure {
+
+dvec3 sampled_light(const World& world, const Hit& hit, const dvec3& out, double choice, dvec2 uv) {
+  const Material& material = world.material(hit);
+  if (is_specular(material)) return dvec3(0.0);
+  const LightSample light = world.sample_light(hit.point, choice, uv);
+  if (!(light.pdf > 0.0)) return dvec3(0.0);
+  const dvec3 scattered = evaluate_scattering(material, hit.normal, out, light.direction) * light.radiance;
+  if (scattered == dvec3(0.0) || !world.visible(hit, light)) return dvec3(0.0);
+  const double share =
+      light.delta ? 1.0
+                  : power_heuristic(light.pdf, scattering_pdf(material, hit.normal, out, light.direction));
+  return scattered * (share / light.pdf);
+}
+
+dvec3 found_light(const World& world, const Ray& ray, const Hit& hit, const ScatterSample* scattered) {
+  const dvec3 radiance = hit ? world.emitted(hit, -ray.direction) : world.background(ray.direction);
+  if (scattered == nullptr || scattered->specular || radiance == dvec3(0.0)) return radiance;
+  const double light = hit ? world.light_pdf(ray.origin, hit) : world.background_pdf(ray.direction);
+  return radiance * power_heuristic(scattered->pdf, light);
+}
+
+}  // namespace rondure

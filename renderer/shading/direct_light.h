@@ -1,0 +1,23 @@
+// Light that reaches a hit straight from its source, gathered in two ways that share the work by multiple
+// importance sampling (Veach and Guibas 1995, power heuristic): a light sample at the hit, and whatever the
+// scattered ray finds.
+#pragma once
+
+#include "renderer/shading/world.h"
+
+namespace rondure {
+
+// Share of a sample of density `own` when another technique draws the same direction with density `other`.
+inline double power_heuristic(double own, double other) {
+  const double ratio = other / own;
+  return 1.0 / (1.0 + ratio * ratio);
+}
+
+// From a light sample, toward `out`. Zero on specular materials.
+dvec3 sampled_light(const World& world, const Hit& hit, const dvec3& out, double choice, dvec2 uv);
+
+// From emission at `hit`, or from the background on a miss, along `ray`. `scattered` is how the ray came
+// about; null for rays that no light sample competes with, such as a camera's.
+dvec3 found_light(const World& world, const Ray& ray, const Hit& hit, const ScatterSample* scattered);
+
+}  // namespace rondure
