@@ -106,7 +106,9 @@ Params::Params(const Value& object, const SourceText* source, std::string what)
       source_(source),
       what_(std::move(what)),
       asked_(std::make_shared<std::set<std::string, std::less<>>>()) {
-  if (object.kind != Value::Kind::object) wrong(*this, object, what_, "an object, { ... }");
+  if (object.kind != Value::Kind::object) {
+    wrong(*this, object, what_.empty() ? "the scene" : what_, "an object, { ... }");
+  }
 }
 
 bool Params::has(std::string_view key) const { return value_->find(key) != nullptr; }

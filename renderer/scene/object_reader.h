@@ -1,0 +1,31 @@
+// One entry of a scene's "objects": the family builds the surface, this places it in the world.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "renderer/api/registry.h"
+#include "renderer/scene/scene.h"
+
+namespace rondure {
+
+// p becomes transform(center + radius p).
+struct Placement {
+  dvec3 center{0.0};
+  double radius = 1.0;
+  dmat4 transform{1.0};
+};
+
+// Nets and ellipsoid take the linear part; the rest goes to the surface's origin, so that a translation
+// leaves every control point as it is. A projective transform acts on the homogeneous nets. Throws
+// std::invalid_argument for a projective transform of an analytic surface.
+void place(Surface& surface, const Placement& placement);
+
+// Material of an object that names none: not an index.
+inline constexpr int default_material = -1;
+
+// Reads and finishes the object. `materials` maps names to indices.
+SceneObject read_object(Params& params, const Registry& registry,
+                        const std::map<std::string, int>& materials);
+
+}  // namespace rondure

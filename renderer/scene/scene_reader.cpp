@@ -1,0 +1,142 @@
+#include "renderer/scene/scene_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "renderer/scene/default_view.h"
+#include "renderer/scene/json_reader.h"
+#include "renderer/scene/object_reader.h"
+#include "renderer/scene/text_file.h"
+#include "renderer/scene/unknown_name.h"
+
+namespace rondure {
+namespace {
+
+// FNV-1a, 64 bits (Fowler, Noll and Vo 1991).
+std::uint64_t hash_bytes(std::uint64_t hash, const std::string& bytes) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return hash;
+}
+
+SamplingSettings read_sampling(Params params) {
+  SamplingSettings sampling;
+  sampling.spp = static_cast<int>(params.integer("spp", sampling.spp, 1, 1 << 30));
+  constexpr std::int64_t exact = std::int64_t{1} << 53;
+  const auto seed = static_cast<std::int64_t>(sampling.seed);
+  sampling.seed = static_cast<std::uint64_t>(params.integer("seed", seed, 0, exact));
+  params.finish();
+  return sampling;
+}
+
+// The name alone stands for an object with nothing but that "type".
+void read_integrator(Scene& scene, Params& root, const Registry& registry) {
+  Value object;
+  object.kind = Value::Kind::object;
+  Value name;
+  name.kind = Value::Kind::string;
+  name.string = "path";
+  const Value* value = root.raw("integrator");
+  if (value && value->kind == Value::Kind::object) {
+    object = *value;
+  } else {
+    if (value && value->kind != Value::Kind::string) {
+      root.fail(*value, "\"integrator\" must be a name or an object, { \"type\": name, ... }");
+    }
+    if (value) name = *value;
+    object.where = name.where;
+    object.members.push_back({"type", name.where, name});
+  }
+  Params params(object, root.source(), "integrator");
+  scene.integrator_name = params.text("type");
+  const IntegratorFactory* factory = registry.integrator(scene.integrator_name);
+  if (!factory) {
+    params.fail("type", unknown_name("integrator", scene.integrator_name, registry.integrator_names()));
+  }
+  scene.integrator = factory->create(params);
+  params.finish();
+}
+
+std::map<std::string, int> read_materials(Scene& scene, Params& root) {
+  std::map<std::string, int> names;
+  const Value* value = root.raw("materials");
+  if (!value) return names;
+  if (value->kind != Value::Kind::object)
+    root.fail(*value, "\"materials\" must be an object, { name: material, ... }");
+  for (const Value::Member& member : value->members) {
+    Params params(member.value, root.source(), "materials." + member.key);
+    names.emplace(member.key, static_cast<int>(scene.materials.size()));
+    scene.materials.push_back(read_material(params));
+  }
+  return names;
+}
+
+void read_objects(Scene& scene, Params& root, const Registry& registry,
+                  const std::map<std::string, int>& materials) {
+  std::vector<Params> objects = root.objects("objects");
+  if (objects.empty()) root.fail("objects", "\"objects\" is empty; a scene needs at least one");
+  for (Params& params : objects) scene.objects.push_back(read_object(params, registry, materials));
+  int plain = default_material;
+  for (SceneObject& object : scene.objects) {
+    if (object.material != default_material) continue;
+    if (plain == default_material) {
+      plain = static_cast<int>(scene.materials.size());
+      scene.materials.emplace_back();
+    }
+    object.material = plain;
+  }
+}
+
+void read_lights(Scene& scene, Params& root) {
+  if (root.raw("lights")) {
+    for (Params& params : root.objects("lights")) scene.lights.push_back(read_light(params));
+  }
+  const bool glowing =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+        return emits(scene.materials[static_cast<std::size_t>(object.material)]);
+      });
+  if (scene.lights.empty() && !glowing) scene.lights.emplace_back(ConstantLight{});
+}
+
+Scene read_document(Document document, const std::string& path, const Registry& registry,
+                    const SceneOverrides& overrides) {
+  apply_overrides(document.root, overrides);
+  Params root(document.root, document.source.get(), "");
+  Scene scene;
+  scene.path = path;
+  scene.hash = hash_bytes(hash_bytes(0xCBF29CE484222325u, document.source->text), overrides_text(overrides));
+  root.text("$schema", "");
+  root.text("name", "");
+  root.text("comment", "");
+  if (root.raw("film")) {
+    Params params = root.object("film");
+    scene.film = read_film(params);
+  }
+  if (root.raw("sampling")) scene.sampling = read_sampling(root.object("sampling"));
+  read_integrator(scene, root, registry);
+  const std::map<std::string, int> materials = read_materials(scene, root);
+  read_objects(scene, root, registry, materials);
+  read_lights(scene, root);
+  if (root.raw("camera")) {
+    Params params = root.object("camera");
+    scene.camera = read_camera(params);
+  } else {
+    scene.camera = view_of(scene.objects, static_cast<double>(scene.film.width) / scene.film.height);
+  }
+  root.finish();
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const Registry& registry, const SceneOverrides& overrides) {
+  return read_document(read_json_file(path), path, registry, overrides);
+}
+
+Scene read_scene_text(const std::string& name, std::string text, const Registry& registry,
+                      const SceneOverrides& overrides) {
+  return read_document(read_json_text(name, std::move(text)), name, registry, overrides);
+}
+
+}  // namespace rondure
