@@ -1,0 +1,79 @@
+// rondure eval: position, derivatives, normal and curvature at given parameters of a scene's patches.
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cmath>
+#include <memory>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/commands/commands.h"
+#include "renderer/commands/csv.h"
+#include "renderer/commands/scene_options.h"
+#include "renderer/scene/scene_reader.h"
+
+namespace rondure {
+namespace {
+
+struct EvalOptions {
+  SceneOptions scene;
+  std::string at;
+  std::string output = "-";
+};
+
+// The number in `column` as an index below `count`.
+std::size_t read_index(const CsvReader& reader, const std::vector<double>& row, std::size_t column, std::size_t count, const char* what) {
+  const double x = row[column];
+  if (!(x >= 0.0) || !(x < static_cast<double>(count)) || x != std::floor(x))
+    reader.fail(column, fmt::format("there is no {} {:g}: expected an index from 0 to {}", what, x, count - 1));
+  return static_cast<std::size_t>(x);
+}
+
+void append(std::string& out, const dvec3& p) { fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z); }
+
+void eval(const Registry& registry, const EvalOptions& options) {
+  const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  CsvReader reader(options.at, {"surface", "patch", "u", "v"}, 4);
+  TextOutput output(options.output);
+  output.write(
+      "surface,patch,u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv,nx,ny,nz,gaussian,mean\n");
+  std::vector<double> row;
+  std::size_t present = 0;
+  while (reader.next(row, present)) {
+    const std::size_t object = read_index(reader, row, 0, scene.objects.size(), "surface");
+    const Surface& surface = scene.objects[object].traced.surface;
+    if (surface.patches.empty())
+      reader.fail(0, fmt::format("surface {} ({}) is analytic: it has no patches to evaluate", object, scene.objects[object].type));
+    const std::size_t patch = read_index(reader, row, 1, surface.patches.size(), "patch");
+    const Net& net = surface.patches[patch];
+    const double u = row[2], v = row[3];
+    const bool triangle = std::holds_alternative<TriangleNet>(net);
+    for (std::size_t k = 2; k < 4; ++k)
+      if (!(row[k] >= 0.0 && row[k] <= 1.0)) reader.fail(k, "parameters lie in [0, 1]");
+    if (triangle && u + v > 1.0) reader.fail(2, "on a triangle u + v must not be above 1");
+    const SurfaceJet jet = surface_jet(net, u, v);
+    const Curvature bend = curvature(net, u, v);
+    std::string line = fmt::format("{},{},{:.17g},{:.17g}", object, patch, u, v);
+    append(line, surface.origin + jet.point);
+    for (const dvec3& d : {jet.du, jet.dv, jet.duu, jet.duv, jet.dvv}) append(line, d);
+    append(line, unit_normal(net, u, v));
+    fmt::format_to(std::back_inserter(line), ",{:.17g},{:.17g}\n", bend.gaussian, bend.mean);
+    output.write(line);
+  }
+  output.finish();
+}
+
+}  // namespace
+
+void add_eval(CLI::App& program, CommandContext& context) {
+  CLI::App* command = program.add_subcommand("eval", "Evaluate a scene's patches at given parameters");
+  auto options = std::make_shared<EvalOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input")->required();
+  command->add_option("-o,--output", options->output, "Table of values; - for standard output (the default)");
+  run_when_chosen(*command, context, [&context, options] { eval(context.registry, *options); });
+}
+
+}  // namespace rondure

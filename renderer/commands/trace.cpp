@@ -1,0 +1,91 @@
+// rondure trace: rays in, hits out, as tables.
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cmath>
+#include <memory>
+
+#include "renderer/commands/commands.h"
+#include "renderer/commands/csv.h"
+#include "renderer/commands/scene_options.h"
+#include "renderer/commands/tracer_of.h"
+#include "renderer/scene/scene_reader.h"
+
+namespace rondure {
+namespace {
+
+constexpr std::size_t block = 1 << 14;  // rays that are traced together and then written in order
+
+struct TraceOptions {
+  SceneOptions scene;
+  std::string rays;
+  std::string output = "-";
+  bool all = false;
+};
+
+Ray read_ray(const CsvReader& reader, const std::vector<double>& row, std::size_t present) {
+  for (std::size_t k = 0; k < 6; ++k)
+    if (!std::isfinite(row[k])) reader.fail(k, "origin and direction must be finite");
+  Ray ray;
+  ray.origin = {row[0], row[1], row[2]};
+  ray.direction = {row[3], row[4], row[5]};
+  if (ray.direction == dvec3(0.0)) reader.fail(3, "the direction is zero");
+  if (present > 6) ray.t_min = row[6];
+  if (present > 7) ray.t_max = row[7];
+  return ray;
+}
+
+void append_hit(std::string& out, std::size_t ray, const Hit& hit) {
+  if (!hit) {
+    fmt::format_to(std::back_inserter(out), "{},0,,,,,,,,,,,\n", ray);
+    return;
+  }
+  fmt::format_to(std::back_inserter(out), "{},1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g},{:.17g}\n", ray,
+                 hit.t, hit.point.x, hit.point.y, hit.point.z, hit.normal.x, hit.normal.y, hit.normal.z, hit.surface,
+                 hit.patch, hit.u, hit.v);
+}
+
+void trace(const Registry& registry, const TraceOptions& options) {
+  Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  const Tracer tracer = tracer_of(scene);
+  CsvReader reader(options.rays, {"ox", "oy", "oz", "dx", "dy", "dz", "tmin", "tmax"}, 6);
+  TextOutput output(options.output);
+  output.write("ray,hit,t,x,y,z,nx,ny,nz,surface,patch,u,v\n");
+
+  std::vector<Ray> rays;
+  std::vector<std::string> lines;
+  std::vector<double> row;
+  std::size_t present = 0, first = 0;
+  for (bool more = true; more;) {
+    rays.clear();
+    while (rays.size() < block && (more = reader.next(row, present))) rays.push_back(read_ray(reader, row, present));
+    lines.assign(rays.size(), {});
+    tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t k) {
+      if (!options.all) return append_hit(lines[k], first + k, tracer.closest(rays[k]));
+      const std::vector<Hit> hits = tracer.all(rays[k]);
+      if (hits.empty()) append_hit(lines[k], first + k, {});
+      for (const Hit& hit : hits) append_hit(lines[k], first + k, hit);
+    });
+    for (const std::string& line : lines) output.write(line);
+    first += rays.size();
+  }
+  output.finish();
+}
+
+}  // namespace
+
+void add_trace(CLI::App& program, CommandContext& context) {
+  CLI::App* command = program.add_subcommand("trace", "Intersect rays from a table with a scene");
+  auto options = std::make_shared<TraceOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")->required();
+  command->add_option("-o,--output", options->output, "Table of hits; - for standard output (the default)");
+  command->add_flag("--all", options->all, "Every hit of each ray, in order of t, not the closest alone");
+  run_when_chosen(*command, context, [&context, options] { trace(context.registry, *options); });
+}
+
+}  // namespace rondure
