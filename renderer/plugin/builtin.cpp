@@ -1,7 +1,16 @@
 #include "renderer/plugin/builtin.h"
 
+#include "integrators/integrators.h"
+#include "surfaces/families.h"
+
 namespace rondure {
 
-void register_builtins(Registry&) {}
+void register_builtins(Registry& registry) {
+  constexpr void (*table[])(Registry&) = {
+      register_bezier,        register_sphere, register_sphere_cap, register_sphere_octant,
+      register_sphere_tiling, register_direct, register_normals,    register_path,
+  };
+  for (const auto register_one : table) register_one(registry);
+}
 
 }  // namespace rondure
