@@ -105,16 +105,19 @@ Params::Params(const Value& object, const SourceText* source, std::string what)
     : value_(&object),
       source_(source),
       what_(std::move(what)),
-      asked_(std::make_shared<std::set<std::string, std::less<>>>()) {
+      asked_(std::make_shared<std::map<std::string, bool, std::less<>>>()) {
   if (object.kind != Value::Kind::object) {
     wrong(*this, object, what_.empty() ? "the scene" : what_, "an object, { ... }");
   }
 }
 
-bool Params::has(std::string_view key) const { return value_->find(key) != nullptr; }
+bool Params::has(std::string_view key) const {
+  asked_->emplace(key, false);
+  return value_->find(key) != nullptr;
+}
 
 const Value* Params::raw(std::string_view key) {
-  asked_->emplace(key);
+  asked_->insert_or_assign(std::string(key), true);
   return value_->find(key);
 }
 
@@ -251,18 +254,25 @@ std::string Params::path(std::string_view key) {
 }
 
 void Params::finish() const {
-  const std::vector<std::string> known(asked_->begin(), asked_->end());
   for (const Value::Member& member : value_->members) {
-    if (asked_->contains(member.key)) continue;
-    const std::string near = nearest_name(member.key, known);
-    const std::string remedy = !near.empty()   ? fmt::format("did you mean \"{}\"?", near)
-                               : known.empty() ? "it takes none"
-                                               : "known keys: " + quoted_list(known);
+    const auto asked = asked_->find(member.key);
+    if (asked != asked_->end() && asked->second) continue;
     const std::string object = what_.empty() ? "the scene" : what_;
-    std::string message = fmt::format("unknown key {} in {}; {}", quote(member.key), object, remedy);
+    std::string message =
+        fmt::format("unknown key {} in {}; {}", quote(member.key), object, remedy(member.key));
+    if (asked != asked_->end())
+      message = fmt::format("{} has no meaning in {} as it stands", quote(member.key), object);
     if (member.where.line < 1) message += " (set on the command line)";
     throw SceneError(source_, member.where, message);
   }
+}
+
+std::string Params::remedy(const std::string& key) const {
+  std::vector<std::string> known;
+  for (const auto& [name, read] : *asked_) known.push_back(name);
+  const std::string near = nearest_name(key, known);
+  if (!near.empty()) return fmt::format("did you mean \"{}\"?", near);
+  return known.empty() ? "it takes none" : "known keys: " + quoted_list(known);
 }
 
 void Params::fail(const std::string& message) const {

@@ -1,14 +1,14 @@
 // Typed access to one JSON object of a scene, for plugins that know nothing of JSON.
 //
-// Every reader call marks its key as read; `finish` then refuses the keys that nobody asked for. All errors are
-// SceneErrors that point at file, line and column.
+// Every reader call marks its key as read; `finish` then refuses the keys that nobody asked for. All errors
+// are SceneErrors that point at file, line and column.
 #pragma once
 
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -78,9 +78,11 @@ struct Range {
 
 class Params {
  public:
-  // `what` names the object in messages: "camera", "objects[2]". `source` may be null and must outlive Params.
+  // `what` names the object in messages: "camera", "objects[2]". `source` may be null and must outlive
+  // Params.
   Params(const Value& object, const SourceText* source, std::string what);
 
+  // Whether the key is there. That makes its name known to `finish`, but does not count as reading it.
   bool has(std::string_view key) const;
   // A required value, then the same with a default.
   double number(std::string_view key, Range range = {});
@@ -91,16 +93,17 @@ class Params {
   std::string text(std::string_view key);
   std::string text(std::string_view key, std::string_view fallback);
   // One of `names`; anything else is an error that lists them and names the nearest.
-  std::string choice(std::string_view key, std::initializer_list<std::string_view> names, std::string_view fallback);
+  std::string choice(std::string_view key, std::initializer_list<std::string_view> names,
+                     std::string_view fallback);
   dvec2 vec2(std::string_view key, dvec2 fallback, Range range = {});
   dvec3 vec3(std::string_view key, Range range = {});
   dvec3 vec3(std::string_view key, dvec3 fallback, Range range = {});
   // A colour: three numbers, or one for grey.
   dvec3 color(std::string_view key, dvec3 fallback, Range range = Range::not_negative());
-  std::vector<double> numbers(std::string_view key);           // array of numbers, any length
+  std::vector<double> numbers(std::string_view key);  // array of numbers, any length
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t low, std::int64_t high);
-  Params object(std::string_view key);                          // required object; finish() it yourself
-  std::vector<Params> objects(std::string_view key);            // required array of objects, may be empty
+  Params object(std::string_view key);                // required object; finish() it yourself
+  std::vector<Params> objects(std::string_view key);  // required array of objects, may be empty
   // The raw value, marked as read; null when absent. For forms that the calls above do not cover.
   const Value* raw(std::string_view key);
   // A path given in the scene, resolved against the scene file's folder.
@@ -120,11 +123,13 @@ class Params {
   const Value* value_;
   const SourceText* source_;
   std::string what_;
-  // Shared by copies, so that a Params passed by value still counts its reads.
-  std::shared_ptr<std::set<std::string, std::less<>>> asked_;
+  // Names asked for, and whether they were read. Shared by copies, so that a Params passed by value still
+  // counts.
+  std::shared_ptr<std::map<std::string, bool, std::less<>>> asked_;
 
   const Value& required(std::string_view key, Value::Kind kind, const char* expected);
   const Value* optional(std::string_view key, Value::Kind kind, const char* expected);
+  std::string remedy(const std::string& key) const;  // for an unknown key
 };
 
 // The candidate nearest to `word` by edit distance, or empty when none is near enough to be meant.

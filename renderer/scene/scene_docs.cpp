@@ -1,0 +1,83 @@
+#include "renderer/scene/scene_docs.h"
+
+#include "renderer/camera/camera.h"
+#include "renderer/film/film_settings.h"
+#include "renderer/shading/light.h"
+#include "renderer/shading/material.h"
+
+namespace rondure {
+namespace {
+
+TypeDoc filter_doc(const std::string& name, const std::string& radius, const std::string& summary) {
+  return {name,
+          summary,
+          {{"radius", "number in [0, 16]", radius, "half width in pixels; 0 stands for the default"}}};
+}
+
+std::vector<TypeDoc> filter_docs() {
+  return {filter_doc("box", "0.5", "The plain mean over the pixel."),
+          filter_doc("tent", "1", "Linear fall from the pixel's centre."),
+          filter_doc("gaussian", "1.5", "A bell with a standard deviation of a third of the radius."),
+          filter_doc("blackman_harris", "2",
+                     "A four-term cosine window (Harris 1978): smooth, little aliasing.")};
+}
+
+}  // namespace
+
+const std::vector<TypeDoc>& scene_docs() {
+  static const std::vector<TypeDoc> docs = {
+      {"scene",
+       "The file: one JSON object, // and /* */ comments allowed.",
+       {{"objects", "array of objects", "", "what there is to see; each names a surface by its \"type\""},
+        {"camera", "object", "a three-quarter view that holds everything", "see perspective, orthographic"},
+        {"film", "object", "{}", "see film"},
+        {"sampling", "object", "{}", "see sampling"},
+        {"integrator", "name or object", "\"path\"", "see rondure list"},
+        {"materials", "object", "{}", "materials by name"},
+        {"lights", "array of objects", "a constant light of 1, unless an object emits", "light from outside"},
+        {"name", "string", "\"\"", "a title"},
+        {"comment", "string", "\"\"", "a remark"},
+        {"$schema", "string", "\"\"", "where editors find scene.schema.json"}}},
+      {"object",
+       "What every object takes besides its own parameters: p becomes transform(center + radius p).",
+       {{"type", "string", "", "the surface's family"},
+        {"center", "point", "[0, 0, 0]", "where the unit surface's middle goes"},
+        {"radius", "number > 0", "1", "factor on the unit surface"},
+        {"transform", "4x4 matrix as rows, or array of steps", "[]",
+         "steps, applied in order: {\"translate\": vector}, {\"rotate\": {\"axis\": vector, \"angle\": "
+         "degrees}}, "
+         "{\"scale\": number or vector}; a matrix may be projective, but for the analytic sphere"},
+        {"material", "string", "a diffuse one of albedo 0.5", "a name under \"materials\""},
+        {"solver", "\"newton\" or \"clipping\"", "\"newton\"", "how rays find the surface"},
+        {"name", "string", "\"objects[i]\"", "what messages and lists call it"}}},
+      {"sampling",
+       "How many samples, and which.",
+       {{"spp", "integer in [1, 1073741824]", "64", "samples per pixel"},
+        {"seed", "integer in [0, 9007199254740992]", "1",
+         "the same seed gives the same picture, bit by bit"}}},
+  };
+  return docs;
+}
+
+std::vector<TypeGroup> all_types(const Registry& registry) {
+  TypeGroup families{"surface", {}}, integrators{"integrator", {}};
+  for (const std::string& name : registry.family_names()) {
+    const SurfaceFamily& family = *registry.family(name);
+    families.types.push_back({name, family.summary, family.parameters});
+  }
+  for (const std::string& name : registry.integrator_names()) {
+    const IntegratorFactory& integrator = *registry.integrator(name);
+    integrators.types.push_back({name, integrator.summary, integrator.parameters});
+  }
+  TypeGroup parts{"part of a scene", scene_docs()};
+  for (const TypeDoc& doc : film_docs()) parts.types.push_back(doc);
+  return {families,
+          integrators,
+          {"material", material_docs()},
+          {"light", light_docs()},
+          {"camera", camera_docs()},
+          {"filter", filter_docs()},
+          parts};
+}
+
+}  // namespace rondure
