@@ -24,9 +24,16 @@ class WorstCase {
     }
   }
 
+  void merge(const WorstCase& other) {
+    const bool worse = other.count_ > 0 && (count_ == 0 || other.ratio_ > ratio_);
+    count_ += other.count_, failures_ += other.failures_;
+    if (worse) ratio_ = other.ratio_, error_ = other.error_, text_ = other.text_;
+  }
+
   long count() const { return count_; }
   long failures() const { return failures_; }
   double error() const { return error_; }
+  double ratio() const { return ratio_; }
   std::string text() const {
     return std::to_string(failures_) + " of " + std::to_string(count_) + " failed; the worst has " +
            std::to_string(ratio_) + " of its tolerance: " + text_;

@@ -191,7 +191,7 @@ dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f
   const double size = glm::length(n);
   // Rounding turns the cross product by about (error of a) |b| / |n| + |a| (error of b) / |n|.
   const double noise = 8.0 * epsilon * (1.0 + glm::length(t.point)) * glm::length(f.value) * degree_of(net);
-  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-10 * size) return n / size;
+  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-11 * size) return n / size;
   const double scale = spread(net, t.point);
   if (size > singular * scale * scale) return n / size;
   const NormalPolynomial polynomial = normal_polynomial(net);

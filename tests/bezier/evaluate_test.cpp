@@ -17,9 +17,9 @@ using oracle::Big;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// A basis function is good to (n + 2) eps; a sum over a few terms adds about one eps a level. Derivatives of order
-// k sum differences of control points with factors up to (2 n)^k. Outside [0, 1] by 1% the sum of |B_i| is below
-// 1.02^24 < 1.7. Control points are below 1.5.
+// A basis function is good to (n + 2) eps; a sum over a few terms adds about one eps a level. Derivatives of
+// order k sum differences of control points with factors up to (2 n)^k. Outside [0, 1] by 1% the sum of |B_i|
+// is below 1.02^24 < 1.7. Control points are below 1.5.
 double tolerance(int degree, int order) { return 2.6 * (degree + 8) * eps * std::pow(2.0 * degree, order); }
 
 template <class N>

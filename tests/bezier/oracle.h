@@ -85,7 +85,8 @@ inline double distance(const dvec4& computed, const BigPoint& exact) {
 
 // The unit normal of the rational surface, from w (w X_u - w_u X) x (w X_v - w_v X).
 inline dvec3 normal(const Net& net, const Big& u, const Big& v) {
-  const BigPoint x = derivative(net, 0, 0, u, v), p = derivative(net, 1, 0, u, v), q = derivative(net, 0, 1, u, v);
+  const BigPoint x = derivative(net, 0, 0, u, v), p = derivative(net, 1, 0, u, v),
+                 q = derivative(net, 0, 1, u, v);
   Big a[3], b[3];
   for (int c = 0; c < 3; ++c) {
     a[c] = x.c[3] * p.c[c] - p.c[3] * x.c[c];
@@ -93,7 +94,8 @@ inline dvec3 normal(const Net& net, const Big& u, const Big& v) {
   }
   const Big n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   const Big length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  return {static_cast<double>(n[0] / length), static_cast<double>(n[1] / length), static_cast<double>(n[2] / length)};
+  return {static_cast<double>(n[0] / length), static_cast<double>(n[1] / length),
+          static_cast<double>(n[2] / length)};
 }
 
 }  // namespace rondure::oracle

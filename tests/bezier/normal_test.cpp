@@ -1,0 +1,252 @@
+// Normals where the parametrisation degenerates, the normal polynomial, and cones.
+#include "renderer/bezier/normal.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/bezier/tensor.h"
+#include "renderer/bezier/transform.h"
+#include "renderer/bezier/triangle.h"
+#include "surfaces/stereographic_patch.h"
+#include "tests/bezier/oracle.h"
+#include "tests/bezier/random_nets.h"
+#include "tests/catch.h"
+#include "tests/paths.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+// The angle between unit vectors, accurate when it is small.
+double angle(const dvec3& a, const dvec3& b) {
+  return 2.0 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
+}
+
+const Net& hemisphere() {
+  static const Net net = sphere_patch(disk(2, 1), 1);
+  return net;
+}
+
+// A quarter circle turned by a quarter: v = 1 collapses to the pole.
+Net octant() {
+  const double h = std::sqrt(0.5);
+  const double c[3][3] = {{1.0, 0.0, 1.0}, {h, h, h}, {0.0, 1.0, 1.0}};
+  TensorNet net(2, 2);
+  for (int i = 0; i <= 2; ++i) {
+    for (int j = 0; j <= 2; ++j) {
+      net.at(i, j) = {c[i][0] * c[j][0], c[i][1] * c[j][0], c[i][2] * c[j][1], c[i][2] * c[j][2]};
+    }
+  }
+  return net;
+}
+
+// On the unit sphere the outward normal is the point. A point is good to about 6 eps; unit_normal promises
+// 1e-10 where it takes the cross product (its own error bound) and better where it takes the polynomial.
+constexpr double sphere_tolerance = 2e-10;
+
+void compare_with_sphere(const Net& net, double u, double v, WorstCase& worst) {
+  const double error = angle(unit_normal(net, u, v), net_point(net, u, v));
+  worst.add(error, sphere_tolerance, [&] { return fmt::format("({:.17g}, {:.17g}): {}", u, v, error); });
+}
+
+}  // namespace
+
+TEST_CASE("normals are right at and near the singular corners of the hemisphere", "[bezier][normal]") {
+  WorstCase worst;
+  for (int corner = 0; corner < 4; ++corner) {
+    for (int k = 0; k <= 72; ++k) {
+      const double distance = k == 72 ? 0.0 : std::pow(10.0, -0.25 * k);
+      for (int direction = 0; direction <= 8; ++direction) {
+        const double du = distance * (1.0 - direction / 8.0);
+        const double dv = distance * (direction / 8.0);
+        const double u = corner % 2 == 0 ? du : 1.0 - du;
+        const double v = corner / 2 == 0 ? dv : 1.0 - dv;
+        compare_with_sphere(hemisphere(), u, v, worst);
+      }
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("normals are right at and near the collapsed edge of the octant", "[bezier][normal]") {
+  const Net net = octant();
+  WorstCase worst;
+  for (int k = 0; k <= 72; ++k) {
+    const double distance = k == 72 ? 0.0 : std::pow(10.0, -0.25 * k);
+    for (int step = 0; step <= 16; ++step) compare_with_sphere(net, step / 16.0, 1.0 - distance, worst);
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+  CHECK(angle(unit_normal(net, 0.3, 1.0), dvec3(0.0, 0.0, 1.0)) < 1e-12);
+}
+
+TEST_CASE("limit normals survive an affine map and a change of scale", "[bezier][normal]") {
+  WorstCase worst;
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    dmat4 map(scale);
+    map[0][0] = 3.0 * scale;
+    map[1][0] = 0.5 * scale;  // a shear: the map is not symmetric
+    map[2][2] = -0.25 * scale;
+    map[3][3] = 1.0;
+    const Net net = transformed(hemisphere(), map);
+    for (const double distance : {1e-2, 1e-5, 1e-8, 1e-12, 0.0}) {
+      for (const double v : {0.0, 0.5 * distance, distance}) {
+        // The map mirrors, so u of the image runs backwards.
+        const dvec3 n = net_point(hemisphere(), 1.0 - distance, v);
+        const dvec3 expected = glm::normalize(glm::transpose(glm::inverse(dmat3(map))) * n);
+        const double error = angle(unit_normal(net, distance, v), expected);
+        worst.add(error, 10.0 * sphere_tolerance,
+                  [&] { return fmt::format("scale {}, distance {}, v {}: {}", scale, distance, v, error); });
+      }
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("corners with parallel tangents have the limit of the inner normals", "[bezier][normal]") {
+  NetMaker make(11);
+  WorstCase worst;
+  for (int k = 0; k < 40; ++k) {
+    const bool triangle = k % 2 == 1;
+    Net net = triangle ? Net(make.triangle(2 + k % 5)) : Net(make.tensor(2 + k % 3, 2 + k % 4));
+    // The control points beside the corner (0, 0) in line with it, on opposite sides, as on Cobb's
+    // hemisphere; of few bits, so that they are so exactly.
+    for (dvec4& p : points_of(net)) p = glm::round(p * 1048576.0) / 1048576.0;
+    dvec4* p = points_of(net).data();
+    const int beside_u =
+        triangle ? triangle_index(std::get<TriangleNet>(net).n, 1, 0) : std::get<TensorNet>(net).n + 1;
+    p[beside_u] = p[0] - 0.75 * (p[1] - p[0]);
+    // Along the diagonal, at a distance where terms of second order are below 1e-10. With 50 digits nothing
+    // is lost.
+    const oracle::Big tiny("1e-12");
+    const dvec3 limit = oracle::normal(net, tiny, tiny);
+    const double error = angle(unit_normal(net, 0.0, 0.0), limit);
+    // The first non-vanishing coefficients may be small against the net: then their direction is less
+    // certain.
+    worst.add(error, 1e-9, [&] { return fmt::format("net {}: {}", k, error); });
+    const double near = angle(unit_normal(net, 1e-7, 2e-7), oracle::normal(net, 1e-7, 2e-7));
+    worst.add(near, 1e-9, [&] { return fmt::format("net {}, near: {}", k, near); });
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("a patch without area has no normal", "[bezier][normal]") {
+  TensorNet line(1, 1);
+  line.points = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}};
+  CHECK(unit_normal(Net(line), 0.3, 0.4) == dvec3(0.0));
+  CHECK(normal_cone(Net(line)).cos_angle == -1.0);
+}
+
+TEST_CASE("the normal polynomial is w (X_u x X_v) and so on, of the true degree", "[bezier][normal]") {
+  NetMaker make(12);
+  WorstCase worst;
+  for (int k = 0; k < 30; ++k) {
+    const bool triangle = k % 2 == 1;
+    const Net net = triangle ? Net(make.triangle(1 + k % 6)) : Net(make.tensor(1 + k % 4, 1 + k % 5));
+    const NormalPolynomial polynomial = normal_polynomial(net);
+    for (int sample = 0; sample < 5; ++sample) {
+      const dvec2 at = make.in_triangle();
+      dvec3 computed;
+      if (const auto* t = std::get_if<TensorPolynomial<dvec3>>(&polynomial)) {
+        CHECK(t->m == 3 * std::get<TensorNet>(net).m - 2);
+        computed = tensor_value(t->coefficients.data(), t->m, t->n, at.x, at.y);
+      } else {
+        const auto& p = std::get<TrianglePolynomial<dvec3>>(polynomial);
+        CHECK(p.n == 3 * std::get<TriangleNet>(net).n - 3);
+        computed = triangle_value(p.coefficients.data(), p.n, at.x, at.y);
+      }
+      const SurfaceJet s = surface_jet(net, at.x, at.y);
+      const double w = net_first(net, at.x, at.y).value.w;
+      const dvec3 expected = w * w * w * glm::cross(s.du, s.dv);
+      // Each coefficient sums products of three points of size 2 with factors of the degree squared.
+      const double error = glm::length(computed - expected);
+      worst.add(error, 1e-12, [&] { return fmt::format("net {}: {}", k, error); });
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("the normal polynomial of the cube's face agrees with the tabulated one", "[bezier][normal]") {
+  std::ifstream derived(source_folder() + "/tests/data/cobb_derived.json");
+  std::ifstream nets(source_folder() + "/tests/data/cobb_nets.json");
+  const auto expected = nlohmann::json::parse(derived)["cube_face_normal"];
+  TensorNet face(4, 4);
+  for (const auto& entry : nlohmann::json::parse(nets)) {
+    if (entry["name"] != "cube_face") continue;
+    for (int i = 0; i <= 4; ++i) {
+      for (int j = 0; j <= 4; ++j) {
+        for (int c = 0; c < 4; ++c) face.at(i, j)[c] = std::stod(std::string(entry["net"][i][j][c]));
+      }
+    }
+  }
+  const auto normals = std::get<TensorPolynomial<dvec3>>(normal_polynomial(face));
+  REQUIRE(normals.m == 10);
+  REQUIRE(normals.n == 10);
+  WorstCase worst;
+  for (int i = 0; i <= 10; ++i) {
+    for (int j = 0; j <= 10; ++j) {
+      for (int c = 0; c < 3; ++c) {
+        // Coefficients up to 200 from sums of some hundred terms: 1e-12 is 25 eps of the largest.
+        const double error = std::abs(normals.at(i, j)[c] - expected[c][i][j].get<double>());
+        worst.add(error, 1e-12, [&] { return fmt::format("({}, {}) {}: {}", i, j, c, error); });
+      }
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("normal cones contain the normals and shrink with the patch", "[bezier][normal]") {
+  NetMaker make(13);
+  WorstCase worst;
+  int bounded = 0;
+  const auto check = [&](const Net& net, bool triangle) {
+    const NormalCone cone = normal_cone(net);
+    if (cone.cos_angle <= -1.0) return cone;
+    ++bounded;
+    for (int k = 0; k < 50; ++k) {
+      dvec2 at(make.uniform(0.0, 1.0), make.uniform(0.0, 1.0));
+      if (triangle) at = make.in_triangle();
+      const double outside = cone.cos_angle - glm::dot(cone.axis, unit_normal(net, at.x, at.y));
+      worst.add(std::max(outside, 0.0), 1e-10, [&] { return fmt::format("outside by {}", outside); });
+    }
+    return cone;
+  };
+  for (int k = 0; k < 20; ++k) {
+    // Nearly flat nets: regular, with normals spread over some tens of degrees.
+    TensorNet net(2 + k % 3, 2 + k % 2);
+    for (int i = 0; i <= net.m; ++i) {
+      for (int j = 0; j <= net.n; ++j) {
+        const double w = make.uniform(0.8, 1.2);
+        net.at(i, j) = {w * i / net.m, w * j / net.n, make.uniform(-0.1, 0.1), w};
+      }
+    }
+    const NormalCone whole = check(net, false);
+    TensorNet part(net.m, net.n);
+    tensor_restrict(net.points.data(), net.m, net.n, 0.25, 0.5, 0.5, 0.75, part.points.data());
+    const NormalCone smaller = check(part, false);
+    CHECK(smaller.cos_angle > whole.cos_angle);
+    TriangleNet triangle(2 + k % 4);
+    for (int i = 0; i <= triangle.n; ++i) {
+      for (int j = 0; j <= triangle.n - i; ++j) {
+        const double w = k % 2 == 0 ? make.uniform(0.8, 1.2) : make.uniform(-1.2, -0.8);
+        triangle.at(i, j) = {w * i / triangle.n, w * j / triangle.n, make.uniform(-0.1, 0.1), w};
+      }
+    }
+    check(triangle, true);
+  }
+  INFO(worst.text());
+  CHECK(bounded >= 40);
+  REQUIRE(worst.failures() == 0);
+}
+
+}  // namespace rondure
