@@ -18,6 +18,7 @@
 #include "renderer/api/version.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/scene_options.h"
+#include "renderer/commands/tracer_of.h"
 #include "renderer/film/atomic_file.h"
 #include "renderer/film/exr.h"
 #include "renderer/film/image.h"
@@ -153,11 +154,11 @@ void render(const CommandContext& context, Options options) {
   if (options.output.empty()) {
     options.output = std::filesystem::path(options.scene.path).stem().string() + ".exr";
   }
-  const Scene scene = read(context, options);
+  Scene scene = read(context, options);
   Film film = make_film(scene, settings);
   check_writable(options.output);
   if (!options.png.empty()) check_writable(options.png);
-  const Tracer tracer = make_tracer(scene);
+  const Tracer tracer = tracer_of(scene);
   const World world = make_world(scene, tracer);
   render_film(film, scene, world, settings, options);
 

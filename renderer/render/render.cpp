@@ -87,12 +87,6 @@ PixelResult render_pixel(const Job& job, int x, int y, PixelSums& whole) {
 
 }  // namespace
 
-Tracer make_tracer(const Scene& scene) {
-  std::vector<TracedSurface> surfaces;
-  for (const SceneObject& object : scene.objects) surfaces.push_back(object.traced);
-  return Tracer(std::move(surfaces));
-}
-
 World make_world(const Scene& scene, const Tracer& tracer) {
   std::vector<int> materials;
   for (const SceneObject& object : scene.objects) materials.push_back(object.material);

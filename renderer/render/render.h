@@ -10,9 +10,7 @@
 
 namespace rondure {
 
-// The scene's surfaces, ready for rays.
-Tracer make_tracer(const Scene& scene);
-// Its light and materials; `tracer` must outlive the world.
+// The scene's light and materials about its surfaces; `tracer` must outlive the world.
 World make_world(const Scene& scene, const Tracer& tracer);
 
 struct RenderOptions {
