@@ -113,7 +113,7 @@ TrianglePolynomial<dvec3> triangle_normals(const TriangleNet& net) {
 }
 
 // How far inside the domain a limit is taken; its direction is off by about as much.
-constexpr double inset = 1e-13;
+constexpr double inset = 0x1p-53;
 
 dvec3 value_inside(const TensorPolynomial<dvec3>& p, double u, double v) {
   double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
