@@ -63,8 +63,12 @@ struct TensorShape {
   static double outside(dvec2 p) { return std::max({-p.x, p.x - 1.0, -p.y, p.y - 1.0}); }
   static dvec2 to_patch(const Cell& c, dvec2 p) { return c.low + p * (c.high - c.low); }
   static dvec2 from_patch(const Cell& c, dvec2 p) { return (p - c.low) / (c.high - c.low); }
-  // The nearest point of the patch's own domain.
+  // The nearest point of the domain, and along which direction one may move there: 0 at a corner.
   static dvec2 clamp(dvec2 p) { return dvec2(std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)); }
+  static dvec2 boundary_direction(dvec2 p) {
+    const bool x = p.x < 0.0 || p.x > 1.0, y = p.y < 0.0 || p.y > 1.0;
+    return dvec2(x ? 0.0 : 1.0, y ? 0.0 : 1.0) * (x && y ? 0.0 : 1.0);
+  }
 };
 
 struct TriangleShape {
@@ -122,7 +126,14 @@ struct TriangleShape {
   static dvec2 clamp(dvec2 p) {
     p = dvec2(std::max(p.x, 0.0), std::max(p.y, 0.0));
     const double sum = p.x + p.y;
-    return sum > 1.0 ? p / sum : p;
+    if (sum <= 1.0) return p;
+    const double x = std::min(p.x / sum, 1.0);
+    return dvec2(x, 1.0 - x);  // their sum is 1 to the last bit
+  }
+  static dvec2 boundary_direction(dvec2 p) {
+    const bool x = p.x < 0.0, y = p.y < 0.0, z = p.x + p.y > 1.0;
+    if (x + y + z > 1) return dvec2(0.0);
+    return x ? dvec2(0.0, 1.0) : y ? dvec2(1.0, 0.0) : dvec2(1.0, -1.0);
   }
 };
 

@@ -232,11 +232,11 @@ class Search {
     const bool within[2] = {here[0] && outside[0] <= 0.0, here[1] && outside[1] <= 0.0};
     if (within[0] || within[1]) {
       for (int k = 0; k < 2; ++k)
-        if (within[k]) keep(at[k], false);
+        if (within[k]) keep(at[k], fold.narrow);
       return;
     }
     const int nearer = here[0] && (!here[1] || outside[0] <= outside[1]) ? 0 : 1;
-    if (here[nearer]) keep(at[nearer], false);
+    if (here[nearer]) keep(at[nearer], fold.narrow);
   }
 
   // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision.
@@ -247,7 +247,6 @@ class Search {
       const dvec2 step = dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
       if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) p -= step;
     }
-    p = Shape::clamp(p);
     roots_.push({p.x, p.y, tangent});
   }
 

@@ -22,7 +22,8 @@ struct SearchCounts {
 };
 
 // Roots in `cell` of the net `f` (degree from `shape`, coefficients over the whole patch), whose evaluation error is
-// below `error`. Root parameters are the patch's own, clamped to its domain. A ray that runs inside the
+// below `error`. Root parameters are the patch's own. They are candidates: where rounding leaves it open whether there is a root,
+// or on which side of the boundary, it is among them, and `settle` decides. A ray that runs inside the
 // surface (a line of a plane or ruled surface) has no isolated root there and none is reported.
 void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error, RootList& roots,
                 SearchCounts& counts) noexcept;

@@ -15,6 +15,7 @@ namespace rondure {
 
 struct FoldResult {
   enum class Kind { undecided, none, tangent, pair } kind = Kind::undecided;
+  bool narrow = false;     // a pair that is within rounding of being tangent
   dvec2 at[2];             // cell parameters; one for `tangent`
   double tolerance = 0.0;  // how far rounding may move each, in cell parameters
 };
@@ -91,12 +92,13 @@ FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval
     result.kind = FoldResult::Kind::none;
     return result;
   }
-  if (depth <= error) {
+  if (depth <= 0.1 * error) {
     result.kind = FoldResult::Kind::tangent;
     result.at[0] = axes.to_cell(x, y);
     return result;
   }
   result.kind = FoldResult::Kind::pair;
+  result.narrow = depth <= error;
   const double spread = std::sqrt(2.0 * depth / curvature.mignitude());  // at or beyond both roots
   result.tolerance = std::min(result.tolerance, 2.0 * error / (bend * spread));
   for (int side = 0; side < 2; ++side) {

@@ -3,17 +3,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/intersect/projected_net.h"
+
 namespace rondure {
 namespace {
 
 constexpr double contraction_limit = 0.3;  // below the 1/3 at which Newton's error can stop shrinking
 constexpr int step_limit = 16;             // of the patch; 2 or 3 are usual
-
-// (plane0 . S, plane1 . S)
-dvec2 project(const LocalRay& ray, const dvec4& s) {
-  const dvec4 &p = ray.plane[0], &q = ray.plane[1];
-  return dvec2((p.x * s.x + p.y * s.y) + (p.z * s.z + p.w * s.w), (q.x * s.x + q.y * s.y) + (q.z * s.z + q.w * s.w));
-}
 
 struct Inverse {
   double aa, ab, ba, bb;  // rows of the inverse of (da db)
@@ -60,9 +56,12 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
     if (!(Shape::outside(p) < contraction_limit)) return NewtonVerdict::none;
     // The next error is below (contraction limit) times the square of this one: beyond 1e-8 it is rounding.
     if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-8) {
-      const dvec2 tolerance = local.bound(dvec2(2.0 * error)) + 4.0 * unit_roundoff;
-      if (Shape::outside(p) > std::max(tolerance.x, tolerance.y)) return NewtonVerdict::none;
-      const dvec2 at = Shape::clamp(leaf.to_patch(p));
+      const dvec2 at = leaf.to_patch(p);
+      if (Shape::outside(p) > 0.0) {
+        // Beside the leaf: of the neighbouring leaf, unless rounding put it here.
+        const dvec2 tolerance = 2.0 * local.bound(dvec2(error)) + 4.0 * unit_roundoff;
+        if (Shape::outside(p) > std::max(tolerance.x, tolerance.y)) return NewtonVerdict::none;
+      }
       root = {at.x, at.y, false};
       return NewtonVerdict::root;
     }

@@ -20,7 +20,7 @@ struct NewtonCounts {
   std::size_t undecided = 0;   // handed to clipping
 };
 
-// `root` is set, in the patch's parameters and clamped to its domain, when the verdict is `root`.
+// `root` is set, in the patch's parameters, when the verdict is `root`; rounding may have put it outside the patch.
 NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error, Root& root,
                              NewtonCounts& counts) noexcept;
 

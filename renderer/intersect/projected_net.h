@@ -8,13 +8,15 @@
 
 namespace rondure {
 
+// (plane0 . S, plane1 . S) of one homogeneous point.
+inline dvec2 project(const LocalRay& ray, const dvec4& s) {
+  const dvec4 &p = ray.plane[0], &q = ray.plane[1];
+  return dvec2((p.x * s.x + p.y * s.y) + (p.z * s.z + p.w * s.w), (q.x * s.x + q.y * s.y) + (q.z * s.z + q.w * s.w));
+}
+
 // out[k] = (plane0 . P_k, plane1 . P_k). No division: at a zero of both, S(u, v) is on both planes, weights included.
 inline void project_net(std::span<const dvec4> points, const LocalRay& ray, dvec2* out) {
-  const dvec4 &a = ray.plane[0], &b = ray.plane[1];
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const dvec4& p = points[k];
-    out[k] = dvec2((a.x * p.x + a.y * p.y) + (a.z * p.z + a.w * p.w), (b.x * p.x + b.y * p.y) + (b.z * p.z + b.w * p.w));
-  }
+  for (std::size_t k = 0; k < points.size(); ++k) out[k] = project(ray, points[k]);
 }
 
 }  // namespace rondure

@@ -31,7 +31,7 @@ inline double residual_bound(const NetScale& scale, const LocalRay& ray) {
 struct Root {
   double u = 0.0;
   double v = 0.0;
-  bool tangent = false;  // two roots that rounding cannot tell apart
+  bool tangent = false;  // tangential or singular within rounding: the parameters are good to half the digits only
 };
 
 // Roots of one patch, in no order. A patch of degree (12, 12) may have hundreds in theory; in a leaf there are

@@ -1,6 +1,7 @@
 #include "renderer/intersect/solve_leaf.h"
 
 #include "renderer/intersect/projected_net.h"
+#include "renderer/intersect/settle.h"
 
 namespace rondure {
 
@@ -9,23 +10,29 @@ SolverCounts& thread_counts() noexcept {
   return counts;
 }
 
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, double error, RootList& roots,
+void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, RootList& roots,
                 SolverCounts& counts) noexcept {
+  const double error = residual_bound(leaf.scale, ray);
   if (solver == Solver::newton) {
     Root root;
     switch (newton_on_leaf(leaf, net, ray, error, root, counts.newton)) {
       case NewtonVerdict::none: return;
-      case NewtonVerdict::root: roots.push(root); return;
+      case NewtonVerdict::root:
+        if (settle(net, leaf.scale, ray, root)) roots.push(root);
+        return;
       case NewtonVerdict::undecided: break;
     }
   }
   constexpr int largest_net = (max_degree + 1) * (max_degree + 1);
   dvec2 projected[largest_net];
   project_net(points_of(net), ray, projected);
+  RootList candidates;
   if (const auto* tensor = std::get_if<TensorNet>(&net))
-    find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, roots, counts.search);
+    find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, candidates, counts.search);
   else
-    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, roots, counts.search);
+    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, candidates, counts.search);
+  for (Root root : candidates)
+    if (settle(net, leaf.scale, ray, root)) roots.push(root);
 }
 
 }  // namespace rondure

@@ -15,8 +15,8 @@ struct SolverCounts {
 // The calling thread's counts, for benchmarks and tests.
 SolverCounts& thread_counts() noexcept;
 
-// Roots of the ray on the leaf; `error` from residual_bound. `newton` hands leaves that it cannot decide to `clipping`.
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, double error, RootList& roots,
+// Roots of the ray on the leaf, settled. `newton` hands leaves that it cannot decide to `clipping`.
+void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, RootList& roots,
                 SolverCounts& counts) noexcept;
 
 }  // namespace rondure

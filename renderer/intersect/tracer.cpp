@@ -11,6 +11,7 @@
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/embree_scene.h"
+#include "renderer/intersect/settle.h"
 #include "renderer/intersect/solve_leaf.h"
 
 namespace rondure {
@@ -94,14 +95,17 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   const TracedSurface& traced = (*q.surfaces)[surface];
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
-  const double error = residual_bound(leaf.scale, q.local);
   RootList roots;
-  solve_leaf(traced.solver, leaf, net, q.local, error, roots, thread_counts());
+  solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
+  const double error = settled_bound(leaf.scale, q.local);
   for (const Root& root : roots) {
     const FirstOrder<dvec4> s = net_first(net, root.u, root.v);
     const double w = s.value.w;
     const dvec3 x = dvec3(s.value) / w;
-    const dvec3 normal = glm::cross(dvec3(s.du) - x * s.du.w, dvec3(s.dv) - x * s.dv.w);
+    const dvec3 xu = dvec3(s.du) - x * s.du.w, xv = dvec3(s.dv) - x * s.dv.w;
+    dvec3 normal = glm::cross(xu, xv);
+    // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
+    if (!(glm::length(normal) > 1e-6 * glm::length(xu) * glm::length(xv))) normal = unit_normal(net, root.u, root.v);
     const Crossing c = make_crossing(q.local, x, normal, error / w, leaf.scale.position / w, root.tangent);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }

@@ -1,0 +1,230 @@
+// Every exact family against the analytic sphere: which rays hit, how often, where.
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <cstdlib>
+#include <fmt/core.h>
+#include <random>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/local_ray.h"
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/exact_surfaces.h"
+#include "tests/intersect/sphere_reference.h"
+#include "tests/worst_case.h"
+
+using namespace rondure;
+
+namespace {
+
+constexpr double ulp = 0x1p-52;
+
+// In which rays at the sphere's rim may go either way. The solvers' residual bound is 12 roundoffs of |S| + |base| w,
+// which is 2.4 w R at most on these nets (hull of a leaf), hence 12 * 2.4 / 2 ulps of R, and 1.5 for the sphere's own
+// distance from the rounded nets.
+constexpr double band = 16.0 * ulp;
+constexpr double position_tolerance = 8.0 * ulp;
+// t is wrong by what the position is wrong, divided by the cosine of incidence, and by its own rounding.
+constexpr double t_tolerance = 8.0 * ulp;
+
+struct Tally {
+  WorstCase position, t;
+  long rays = 0, hits = 0, in_band = 0, wrong_count = 0, disagreements = 0;
+  double worst_clearance = 0.0;
+  std::string worst_miss = "none";
+
+  void merge(const Tally& o) {
+    rays += o.rays, hits += o.hits, in_band += o.in_band, wrong_count += o.wrong_count, disagreements += o.disagreements;
+    if (o.worst_clearance > worst_clearance) worst_clearance = o.worst_clearance, worst_miss = o.worst_miss;
+    position.merge(o.position);
+    t.merge(o.t);
+  }
+};
+
+struct Case {
+  const char* name;
+  Surface surface;
+  Solver solver;
+  double radius;
+  dvec3 center;
+};
+
+enum class Kind { outside, inside, far_away, tangential, edge, corner, singular, from_far_at_edge, count };
+
+dvec3 random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  for (;;) {
+    const double x = normal(random), y = normal(random), z = normal(random);
+    const dvec3 d(x, y, z);
+    if (glm::length(d) > 1e-3) return glm::normalize(d);
+  }
+}
+
+// A point of a patch's boundary, or a corner of it, in the surface's frame.
+dvec3 boundary_point(const Surface& surface, std::mt19937_64& random, bool corner) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const std::size_t patch = std::uniform_int_distribution<std::size_t>(0, surface.patches.size() - 1)(random);
+  const double along = corner ? std::floor(2.0 * uniform(random)) : uniform(random), across = uniform(random) < 0.5 ? 0.0 : 1.0;
+  const bool swap = uniform(random) < 0.5;
+  return net_point(surface.patches[patch], swap ? across : along, swap ? along : across);
+}
+
+// Direction and origin of a ray of the kind; `expected` roots, or -1 when the reference alone decides.
+Ray make_ray(const Case& c, Kind kind, std::mt19937_64& random, bool& starts_inside) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const dvec3 d = random_direction(random);
+  const dvec3 side = glm::normalize(glm::cross(d, random_direction(random)));
+  Ray ray;
+  starts_inside = false;
+  const double scale = std::exp2(std::floor(20.0 * uniform(random)) - 10.0);  // directions need not be unit vectors
+  ray.direction = d * scale;
+  const auto set_origin = [&](const dvec3& unit) { ray.origin = c.center + c.radius * unit; };
+  const auto aim = [&](double distance, const dvec3& target) {
+    set_origin(random_direction(random) * distance);
+    ray.direction = (c.center + target - ray.origin) * (0.5 + uniform(random));
+  };
+  switch (kind) {
+    case Kind::outside: set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * (1.0 + 9.0 * uniform(random) + 0.5)); break;
+    case Kind::inside: set_origin(random_direction(random) * 0.99 * std::cbrt(uniform(random))), starts_inside = true; break;
+    case Kind::far_away: set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * 1e6); break;
+    case Kind::tangential: {
+      const double off = std::pow(10.0, -1.0 - 15.0 * uniform(random));
+      set_origin(side * (uniform(random) < 0.5 ? 1.0 - off : 1.0 + off) - d * (1.5 + uniform(random)));
+      break;
+    }
+    case Kind::edge:
+    case Kind::corner: {
+      starts_inside = uniform(random) < 0.5;
+      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random), boundary_point(c.surface, random, kind == Kind::corner));
+      break;
+    }
+    case Kind::singular: {
+      // Towards the corners and poles where tangents are parallel or vanish, missing them by 10^-1 to 10^-17 of the radius.
+      starts_inside = uniform(random) < 0.5;
+      const dvec3 near = random_direction(random) * c.radius * std::pow(10.0, -1.0 - 16.0 * uniform(random));
+      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random), boundary_point(c.surface, random, true) + near);
+      break;
+    }
+    case Kind::from_far_at_edge: aim(1e6, boundary_point(c.surface, random, uniform(random) < 0.5)); break;
+    case Kind::count: break;
+  }
+  return ray;
+}
+
+void check_ray(const Case& c, const Tracer& tracer, Kind kind, std::mt19937_64& random, Tally& tally) {
+  bool inside = false;
+  const Ray ray = make_ray(c, kind, random, inside);
+  const SphereReference exact = sphere_reference(ray.origin, ray.direction, c.center, c.radius);
+  const std::vector<Hit> all = tracer.all(ray);
+  const Hit closest = tracer.closest(ray);
+  ++tally.rays;
+  tally.hits += static_cast<long>(all.size());
+  const auto describe = [&] {
+    return fmt::format("{}, kind {}: o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}), clearance {:.3g} ulp, {} hits", c.name,
+                       static_cast<int>(kind), ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
+                       ray.direction.z, exact.clearance / ulp, all.size());
+  };
+
+  const bool same_first = all.empty() ? !closest : (closest && closest.t == all.front().t && closest.patch == all.front().patch);
+  if (!same_first || tracer.occluded(ray) != static_cast<bool>(closest)) ++tally.disagreements;
+
+  // The centre's own rounding moves a sphere at `center` by up to an ulp of it.
+  const double shift = 2.0 * ulp * largest(c.center) / c.radius;
+  for (const Hit& hit : all) {
+    const double off = std::fabs(glm::length(hit.point - c.center) / c.radius - 1.0);
+    tally.position.add(off, position_tolerance + shift, describe);
+  }
+
+  const std::size_t expected = exact.clearance < 0.0 ? (inside ? 1 : 2) : 0;
+  if (std::fabs(exact.clearance) <= band + shift) {
+    ++tally.in_band;
+    return;
+  }
+  if (all.size() != expected) {
+    ++tally.wrong_count;
+    if (std::fabs(exact.clearance) > tally.worst_clearance) tally.worst_clearance = std::fabs(exact.clearance), tally.worst_miss = describe();
+    return;
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double reference = exact.t[inside ? 1 : k];
+    const double kappa = c.radius / (glm::length(ray.direction) * exact.cosine);
+    const double tolerance = t_tolerance * (std::fabs(reference) + kappa * (1.0 + shift / ulp));
+    tally.t.add(std::fabs(all[k].t - reference), tolerance, describe);
+  }
+}
+
+Tally check_case(const Case& c, long rays) {
+  const Tracer tracer({{c.surface, c.solver}});
+  constexpr long block = 1000;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<long>(0, rays / block, 1), Tally{},
+      [&](const tbb::blocked_range<long>& range, Tally tally) {
+        for (long b = range.begin(); b < range.end(); ++b) {
+          std::mt19937_64 random(static_cast<std::uint64_t>(b) + 1);
+          for (long k = 0; k < block; ++k)
+            check_ray(c, tracer, static_cast<Kind>(k % static_cast<long>(Kind::count)), random, tally);
+        }
+        return tally;
+      },
+      [](Tally a, const Tally& b) { return a.merge(b), a; });
+}
+
+void require_clean(const Tally& tally, const std::string& what) {
+  WARN(fmt::format("{}: {} rays, {} hits; within {:.0f} ulp of tangency {:.3g}% of the rays; worst | |p-c|/R - 1 | {:.2g} ulp; worst t "
+                   "{:.2g} of its tolerance",
+                   what, tally.rays, tally.hits, band / ulp, 100.0 * static_cast<double>(tally.in_band) / static_cast<double>(tally.rays),
+                   tally.position.error() / ulp, tally.t.ratio()));
+  INFO("wrong count of hits: " << tally.wrong_count << "; the furthest from tangency: " << tally.worst_miss);
+  INFO("position: " << tally.position.text());
+  INFO("t: " << tally.t.text());
+  CHECK(tally.wrong_count == 0);
+  CHECK(tally.disagreements == 0);
+  CHECK(tally.position.failures() == 0);
+  CHECK(tally.t.failures() == 0);
+  // Half of the rays at least hit something: the test has something to say.
+  CHECK(tally.hits > tally.rays / 2);
+}
+
+long soak_factor() { return std::getenv("RONDURE_SOAK") ? 100 : 1; }
+
+std::vector<std::pair<const char*, Surface>> closed_families() {
+  return {{"cube", family_surface(R"({"type": "sphere_tiling", "topology": "cube"})")},
+          {"hemispheres", family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})")},
+          {"octants", family_surface(R"({"type": "sphere_octant"})")}};
+}
+
+}  // namespace
+
+TEST_CASE("Newton finds every hit of the analytic sphere on the closed families, and no other", "[hits]") {
+  Tally total;
+  for (const auto& [name, surface] : closed_families()) {
+    Tally tally = check_case({name, surface, Solver::newton, 1.0, dvec3(0.0)}, 18'000 * soak_factor());
+    // 10^-4 to 10^4, powers of two and others, at the origin and beside it.
+    for (const double radius : {1e-4, 0.37, 1e4}) {
+      tally.merge(check_case({name, placed(surface, radius, dvec3(0.0)), Solver::newton, radius, dvec3(0.0)}, 4'000 * soak_factor()));
+      const dvec3 center = radius * dvec3(3.1, -2.7, 10.3);
+      tally.merge(check_case({name, placed(surface, radius, center), Solver::newton, radius, center}, 2'000 * soak_factor()));
+    }
+    require_clean(tally, std::string("newton, ") + name);
+    total.merge(tally);
+  }
+  CHECK(total.rays >= 10'000'000);
+}
+
+TEST_CASE("Clipping alone finds the same", "[hits]") {
+  for (const auto& [name, surface] : closed_families())
+    require_clean(check_case({name, surface, Solver::clipping, 1.0, dvec3(0.0)}, 2'400 * soak_factor()), std::string("clipping, ") + name);
+}
+
+TEST_CASE("The analytic sphere passes the same test", "[hits]") {
+  // Aimed rays need patches: those of the cube stand in.
+  Surface sphere = family_surface(R"({"type": "sphere"})");
+  const Tracer tracer({{sphere, Solver::newton}});
+  Case c{"sphere", closed_families()[0].second, Solver::newton, 1.0, dvec3(0.0)};
+  Tally tally;
+  std::mt19937_64 random(5);
+  for (long k = 0; k < 200'000; ++k) check_ray(c, tracer, static_cast<Kind>(k % static_cast<long>(Kind::count)), random, tally);
+  require_clean(tally, "sphere");
+}
