@@ -15,6 +15,8 @@ constexpr std::size_t cell_limit = 1 << 14;  // a tangential ray takes tens; a n
 constexpr double contraction = 0.3;          // below 1/3, full Newton steps converge from anywhere in the cell
 constexpr double macroscopic = 0x1p20;       // times the rounding error: no isolated root looks like this
 
+constexpr double point_size = 16.0;           // times the rounding error: what is so small is one candidate
+
 enum class Outcome { finished, divide };
 
 template <class Shape>
@@ -99,8 +101,8 @@ class Search {
     invertible_ = false;
     if (raw.avoids_zero(dvec2(error_))) return Outcome::finished;
     const dvec2 magnitude = raw.magnitude();
-    if (std::max(magnitude.x, magnitude.y) <= error_) {
-      keep(Shape::to_patch(cell, Shape::center()), true);
+    if (std::max(magnitude.x, magnitude.y) <= point_size * error_) {
+      keep_point(cell);
       return Outcome::finished;
     }
     const FirstOrder<dvec2> middle = shape_.first(f, Shape::center());
@@ -140,7 +142,9 @@ class Search {
 
   Outcome solve_simple(const dvec2* f, const typename Shape::Cell& cell, dvec2 band) {
     dvec2 p = Shape::center();
-    for (int k = 0; k < 32; ++k) {
+    for (int k = 0;; ++k) {
+      // A root of this cell would have been reached: the contraction leaves 10^-16 of the cell after 32 steps at worst.
+      if (k == 32) return Outcome::finished;
       const FirstOrder<dvec2> s = shape_.first(f, p);
       const dvec2 step = glm::inverse(glm::dmat2(s.du, s.dv)) * s.value;
       p -= step;
@@ -239,15 +243,31 @@ class Search {
     if (here[nearer]) keep(at[nearer], fold.narrow);
   }
 
-  // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision.
+  // A cell that is a point in space may still be wide in the parameters, at a collapsed edge: a few starts for `settle`, since
+  // which of the edge's parameters leads to the ray is more than rounding can tell here.
+  void keep_point(const typename Shape::Cell& cell) {
+    const dvec2 middle = Shape::center();
+    keep(Shape::to_patch(cell, middle), true);
+    for (const dvec2 p : {dvec2(0.125, middle.y), dvec2(0.875, middle.y), dvec2(middle.x, 0.125), dvec2(middle.x, 0.875)}) {
+      if (Shape::outside(p) > 0.0) continue;
+      const dvec2 far = Shape::to_patch(cell, p) - Shape::to_patch(cell, middle);
+      if (std::max(std::fabs(far.x), std::fabs(far.y)) > 1e-3) keep(Shape::to_patch(cell, p), true);
+    }
+  }
+
+  // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision, and checks it there.
   void keep(dvec2 p, bool tangent) {
+    FirstOrder<dvec2> s = shape_.first(patch_, p);
     if (!tangent) {
-      const FirstOrder<dvec2> s = shape_.first(patch_, p);
       const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
       const dvec2 step = dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
-      if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) p -= step;
+      if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) {
+        p -= step;
+        s = shape_.first(patch_, p);
+      }
     }
-    roots_.push({p.x, p.y, tangent});
+    const double residual = std::max(std::fabs(s.value.x), std::fabs(s.value.y));
+    if (residual <= point_size * error_) roots_.push({p.x, p.y, tangent || residual > 0.25 * error_});
   }
 
   void halve(int level, Frame<Shape>* frames) {

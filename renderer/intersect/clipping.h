@@ -7,7 +7,7 @@
 //           and Newton's method finds it (Krawczyk 1969);
 //   fold    one polynomial is a graph over the cell, and the other is convex along it: two roots at most, at
 //           either side of the extremum. Tangential rays and singular corners end here, at any distance;
-//   point   both polynomials are below their rounding error all over the cell.
+//   point   both polynomials are within a few rounding errors of zero all over the cell.
 // Otherwise the cell is clipped, or halved.
 #pragma once
 

@@ -58,21 +58,27 @@ FirstOrder<dvec2> projected(const Net& net, const LocalRay& ray, dvec2 p) {
   return {project(ray, s.value), project(ray, s.du), project(ray, s.dv)};
 }
 
-// One damped least-squares step; kept when it lowers the residual. Near a singular point the damping keeps the step from
-// running off along the direction in which the patch does not move.
+// Damped least-squares steps (Levenberg 1944), each kept only when it lowers the residual. The damping starts at nothing,
+// for roots that are merely close, and grows until a step helps: near a singular point the patch hardly moves along one
+// direction, and an undamped step would run away along it.
+template <class Shape>
 dvec2 improve(const Net& net, const LocalRay& ray, dvec2 p) {
+  p = Shape::clamp(p);
   dvec2 f = extended_residual(net, ray, p);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 12; ++k) {
     const FirstOrder<dvec2> s = projected(net, ray, p);
-    const double aa = glm::dot(s.du, s.du), ab = glm::dot(s.du, s.dv), bb = glm::dot(s.dv, s.dv), damping = 1e-24 * (aa + bb);
-    const double det = (aa + damping) * (bb + damping) - ab * ab;
+    const double aa = glm::dot(s.du, s.du), ab = glm::dot(s.du, s.dv), bb = glm::dot(s.dv, s.dv);
     const dvec2 right(glm::dot(s.du, f), glm::dot(s.dv, f));
-    const dvec2 step = dvec2((bb + damping) * right.x - ab * right.y, (aa + damping) * right.y - ab * right.x) / det;
-    if (!(size_of(step) < 1e-3)) break;
-    const dvec2 next = extended_residual(net, ray, p - step);
-    if (!(size_of(next) < size_of(f))) break;
-    p -= step;
-    f = next;
+    bool better = false;
+    for (double damping = 1e-28 * (aa + bb); !better && damping < aa + bb; damping *= 1e4) {
+      const double det = (aa + damping) * (bb + damping) - ab * ab;
+      const dvec2 step = dvec2((bb + damping) * right.x - ab * right.y, (aa + damping) * right.y - ab * right.x) / det;
+      if (!(size_of(step) < 1.0)) continue;
+      const dvec2 q = Shape::clamp(p - step), next = extended_residual(net, ray, q);
+      better = glm::dot(next, next) < glm::dot(f, f);
+      if (better) p = q, f = next;
+    }
+    if (!better) break;
   }
   return p;
 }
@@ -80,7 +86,7 @@ dvec2 improve(const Net& net, const LocalRay& ray, dvec2 p) {
 template <class Shape>
 bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
   dvec2 p(root.u, root.v);
-  if (root.tangent) p = improve(net, ray, p);
+  if (root.tangent) p = improve<Shape>(net, ray, p);
   if (const double beyond = Shape::outside(p); beyond > 0.0) {
     if (!(beyond < reach)) return false;
     const dvec2 along = Shape::boundary_direction(p);
@@ -100,7 +106,9 @@ bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
     return true;
   }
   root.u = p.x, root.v = p.y;
-  return size_of(extended_residual(net, ray, p)) <= bound;
+  // And the parameters are doubles: half an ulp of each moves the point by this much.
+  const FirstOrder<dvec2> s = projected(net, ray, p);
+  return size_of(extended_residual(net, ray, p)) <= bound + unit_roundoff * (size_of(s.du) + size_of(s.dv));
 }
 
 }  // namespace

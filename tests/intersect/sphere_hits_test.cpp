@@ -200,12 +200,12 @@ std::vector<std::pair<const char*, Surface>> closed_families() {
 TEST_CASE("Newton finds every hit of the analytic sphere on the closed families, and no other", "[hits]") {
   Tally total;
   for (const auto& [name, surface] : closed_families()) {
-    Tally tally = check_case({name, surface, Solver::newton, 1.0, dvec3(0.0)}, 18'000 * soak_factor());
+    Tally tally = check_case({name, surface, Solver::newton, 1.0, dvec3(0.0)}, 300'000 * soak_factor());
     // 10^-4 to 10^4, powers of two and others, at the origin and beside it.
     for (const double radius : {1e-4, 0.37, 1e4}) {
-      tally.merge(check_case({name, placed(surface, radius, dvec3(0.0)), Solver::newton, radius, dvec3(0.0)}, 4'000 * soak_factor()));
+      tally.merge(check_case({name, placed(surface, radius, dvec3(0.0)), Solver::newton, radius, dvec3(0.0)}, 60'000 * soak_factor()));
       const dvec3 center = radius * dvec3(3.1, -2.7, 10.3);
-      tally.merge(check_case({name, placed(surface, radius, center), Solver::newton, radius, center}, 2'000 * soak_factor()));
+      tally.merge(check_case({name, placed(surface, radius, center), Solver::newton, radius, center}, 30'000 * soak_factor()));
     }
     require_clean(tally, std::string("newton, ") + name);
     total.merge(tally);
@@ -215,7 +215,7 @@ TEST_CASE("Newton finds every hit of the analytic sphere on the closed families,
 
 TEST_CASE("Clipping alone finds the same", "[hits]") {
   for (const auto& [name, surface] : closed_families())
-    require_clean(check_case({name, surface, Solver::clipping, 1.0, dvec3(0.0)}, 2'400 * soak_factor()), std::string("clipping, ") + name);
+    require_clean(check_case({name, surface, Solver::clipping, 1.0, dvec3(0.0)}, 30'000 * soak_factor()), std::string("clipping, ") + name);
 }
 
 TEST_CASE("The analytic sphere passes the same test", "[hits]") {
