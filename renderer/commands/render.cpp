@@ -157,7 +157,10 @@ void render(const CommandContext& context, Options options) {
   Scene scene = read(context, options);
   Film film = make_film(scene, settings);
   check_writable(options.output);
-  if (!options.png.empty()) check_writable(options.png);
+  if (!options.png.empty()) {
+    check_writable(options.png);
+    require_image_module();
+  }
   const Tracer tracer = tracer_of(scene);
   const World world = make_world(scene, tracer);
   render_film(film, scene, world, settings, options);

@@ -47,6 +47,8 @@ struct Failure {
 
 }  // namespace
 
+void require_image_module() { module_symbol(write_png_name); }
+
 Image read_image(const std::string& path) {
   const auto read = reinterpret_cast<ReadImageFunction>(module_symbol(read_image_name));
   Image image;

@@ -1,0 +1,180 @@
+#include <filesystem>
+#include <set>
+
+#include "tests/catch.h"
+#include "tests/paths.h"
+#include "tests/process.h"
+
+namespace rondure {
+namespace {
+
+const char* scene = R"({ "film": { "resolution": [40, 30] }, "sampling": { "spp": 8 },
+  "materials": { "m": { "albedo": 0.7 } }, "lights": [ { "type": "constant" } ],
+  "objects": [ { "type": "sphere_tiling", "topology": "cube", "material": "m" } ] })";
+
+// A fresh folder that holds ball.json.
+std::string stage(const std::string& name) {
+  const std::string folder = fresh_folder(name);
+  write_text_file(folder + "/ball.json", scene);
+  return folder;
+}
+
+ProcessResult run_in(const std::string& folder, const std::vector<std::string>& arguments) {
+  ProcessOptions options;
+  options.folder = folder;
+  return run_rondure(arguments, options);
+}
+
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST_CASE("render writes the scene's name and says so", "[commands]") {
+  const std::string folder = stage("render_default");
+  const ProcessResult r = run_in(folder, {"render", "ball.json"});
+  INFO(r.err);
+  CHECK(r.exit_code == 0);
+  CHECK(r.out.empty());
+  CHECK(r.err.find("ball.exr: 40 x 30, 8 spp, ") != std::string::npos);
+  CHECK(r.err.find("8 spp: 100%") != std::string::npos);
+  CHECK(std::count(r.err.begin(), r.err.end(), '\n') <= 11);  // ten tenths at most, and the note
+  CHECK(r.err.find('\r') == std::string::npos);               // no bar: this is no terminal
+  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json"});
+}
+
+TEST_CASE("rendered files do not depend on threads, and quiet is quiet", "[commands]") {
+  const std::string folder = stage("render_threads");
+  std::string first;
+  for (const char* threads : {"1", "2", "3"}) {
+    const std::string name = std::string("a") + threads + ".exr";
+    const ProcessResult r =
+        run_in(folder, {"render", "ball.json", "--threads", threads, "-o", name, "--quiet"});
+    CHECK(r.exit_code == 0);
+    CHECK(r.err.empty());
+    const std::string bytes = read_text_file(folder + "/" + name);
+    if (first.empty()) first = bytes;
+    CHECK(bytes == first);
+  }
+  CHECK(first.size() > 10000);
+  const ProcessResult other =
+      run_in(folder, {"render", "ball.json", "--seed", "2", "-o", "b.exr", "--quiet"});
+  CHECK(other.exit_code == 0);
+  CHECK(read_text_file(folder + "/b.exr") != first);
+}
+
+TEST_CASE("a resumed render is the file of one run", "[commands]") {
+  const std::string folder = stage("render_resume");
+  const auto render = [&](std::vector<std::string> extra) {
+    std::vector<std::string> all = {"render", "ball.json", "--quiet"};
+    all.insert(all.end(), extra.begin(), extra.end());
+    return run_in(folder, all);
+  };
+  CHECK(render({"--spp", "150", "-o", "straight.exr"}).exit_code == 0);
+  for (const char* spp : {"10", "70", "150"})
+    CHECK(render({"--spp", spp, "-o", "a.exr", "--resume"}).exit_code == 0);
+  CHECK(read_text_file(folder + "/a.exr") == read_text_file(folder + "/straight.exr"));
+  CHECK(names_in(folder) == std::set<std::string>{"a.exr", "a.exr.state", "ball.json", "straight.exr"});
+
+  const ProcessResult fewer = render({"--spp", "20", "-o", "a.exr", "--resume"});
+  CHECK(fewer.exit_code == 1);
+  CHECK(fewer.err ==
+        "rondure: error: a.exr.state: already holds 144 samples a pixel, more than the 20 asked for; raise "
+        "--spp\n");
+  for (const std::vector<std::string>& change : {std::vector<std::string>{"--seed", "9"},
+                                                 {"--crop", "0,0,20,20"},
+                                                 {"--set", "/materials/m/albedo=0.6"}}) {
+    std::vector<std::string> all = {"--spp", "200", "-o", "a.exr", "--resume"};
+    all.insert(all.end(), change.begin(), change.end());
+    const ProcessResult r = render(all);
+    INFO(r.err);
+    CHECK(r.exit_code == 1);
+    CHECK(r.err.find("a.exr.state: holds another render; delete it or choose another output") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("the preview is a PNG, and the crop its size", "[commands]") {
+  const std::string folder = stage("render_png");
+  const ProcessResult r = run_in(folder, {"render", "ball.json", "--png", "ball.png", "--crop", "3,4,24,15"});
+  INFO(r.err);
+  CHECK(r.exit_code == 0);
+  CHECK(r.err.find("ball.exr: 21 x 11, 8 spp") != std::string::npos);
+  const std::string png = read_text_file(folder + "/ball.png");
+  CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+  CHECK(png.substr(16, 8) == std::string("\0\0\0\x15\0\0\0\x0b", 8));  // width and height of the header chunk
+  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json", "ball.png"});
+}
+
+TEST_CASE("render's errors name the cause and leave nothing", "[commands]") {
+  const std::string folder = stage("render_errors");
+  const auto error_of = [&](std::vector<std::string> extra) {
+    std::vector<std::string> all = {"render", "ball.json"};
+    all.insert(all.end(), extra.begin(), extra.end());
+    const ProcessResult r = run_in(folder, all);
+    CHECK(r.exit_code == 1);
+    CHECK(r.out.empty());
+    return r.err;
+  };
+  CHECK(error_of({"-o", "no/a.exr"}) ==
+        "rondure: error: no/a.exr: cannot write: No such file or directory\n");
+  CHECK(error_of({"--png", "no/a.png"}) ==
+        "rondure: error: no/a.png: cannot write: No such file or directory\n");
+  CHECK(error_of({"-o", folder}) == "rondure: error: " + folder + ": cannot write: Is a directory\n");
+  CHECK(error_of({"--crop", "1,2,3"}) ==
+        "rondure: error: --crop wants x0,y0,x1,y1, four integers, not \"1,2,3\"\n");
+  CHECK(error_of({"--crop", "0,0,50,20"}) ==
+        "rondure: error: the crop 0,0,50,20 must be a window of 0,0,40,30: x0,y0 "
+        "within, x1,y1 just beyond\n");
+  CHECK(error_of({"--spp", "0"}).find("--spp must be in [1, 1073741824], not 0") != std::string::npos);
+  CHECK(names_in(folder) == std::set<std::string>{"ball.json"});
+}
+
+TEST_CASE("an interrupted render writes nothing, or with --resume what it has", "[commands]") {
+  const std::string folder = stage("render_interrupt");
+  const auto interrupt = [&](std::vector<std::string> extra) {
+    std::vector<std::string> all = {"timeout", "--preserve-status", "-s",     "INT",
+                                    "2",       program_path(),      "render", "ball.json",
+                                    "--spp",   "100000000",         "--quiet"};
+    all.insert(all.end(), extra.begin(), extra.end());
+    ProcessOptions options;
+    options.folder = folder;
+    return run_process(all, options);
+  };
+  const ProcessResult plain = interrupt({});
+  CHECK(plain.exit_code == 1);
+  CHECK(plain.err == "rondure: error: interrupted; nothing was written\n");
+  CHECK(names_in(folder) == std::set<std::string>{"ball.json"});
+  const ProcessResult kept = interrupt({"--resume"});
+  INFO(kept.err);
+  CHECK(kept.exit_code == 1);
+  CHECK(kept.err.find("samples a pixel are kept in ball.exr.state") != std::string::npos);
+  CHECK(names_in(folder) == std::set<std::string>{"ball.exr.state", "ball.json"});
+}
+
+TEST_CASE("without the image module a preview is refused before the work", "[commands]") {
+  const std::string folder = stage("render_no_module");
+  // The module is looked for beside the library: here is a copy of the library alone.
+  const std::string library = folder + "/library";
+  std::filesystem::create_directory(library);
+  const std::filesystem::path built =
+      std::filesystem::path(program_path()).parent_path().parent_path() / "lib";
+  std::filesystem::copy_file(built / "librondure.so", library + "/librondure.so");
+  ProcessOptions options;
+  options.folder = folder;
+  options.environment["LD_LIBRARY_PATH"] = library;
+  const ProcessResult r = run_rondure({"render", "ball.json", "--png", "a.png", "--quiet"}, options);
+  INFO(r.err);
+  CHECK(r.exit_code == 1);
+  CHECK(r.err.find(
+            "rondure: error: picture files other than OpenEXR need the module librondure_images.so (with "
+            "OpenImageIO): ") == 0);
+  CHECK(names_in(folder) == std::set<std::string>{"ball.json", "library"});
+  // What needs no picture files works without it.
+  CHECK(run_rondure({"render", "ball.json", "--quiet"}, options).exit_code == 0);
+}
+
+}  // namespace
+}  // namespace rondure
