@@ -33,8 +33,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::size_t least = std::string::npos;
   for (const std::string& candidate : candidates) {
     std::size_t d = distance(word, candidate);
-    // One in three letters may be wrong, and an abbreviation counts as one slip.
-    if (word.size() >= 3 && candidate.starts_with(word)) d = std::min<std::size_t>(d, 1);
+    // One in three letters may be wrong, and a beginning or an end alone counts as one slip.
+    const bool part = candidate.starts_with(word) || candidate.ends_with(word);
+    if (word.size() >= 3 && part) d = std::min<std::size_t>(d, 1);
     const std::size_t limit = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
     if (d > limit || d >= std::max(word.size(), candidate.size()) || d >= least) continue;
     least = d;
