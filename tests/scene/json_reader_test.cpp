@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "renderer/scene/text_file.h"
 #include "tests/catch.h"
 #include "tests/process.h"
 #include "tests/scene/messages.h"
@@ -162,6 +162,17 @@ TEST_CASE("files that cannot be read say why", "[scene]") {
   write_text_file(empty, "");
   CHECK(first_line(message_of([&] { read_json_file(empty); })) ==
         empty + ":1:1: the file is empty; a scene is an object, { ... }");
+}
+
+TEST_CASE("a file beyond the limit is refused", "[scene]") {
+  const std::string file = fresh_folder("text_file") + "/long.json";
+  write_text_file(file, std::string(100, ' '));
+  CHECK(read_text_file(file, 100).size() == 100);
+  CHECK(message_of([&] { read_text_file(file, 99); }) ==
+        "cannot read " + file + ": it is larger than 99 bytes");
+  // A device has no size to ask for beforehand, and this one never ends.
+  CHECK(message_of([&] { read_text_file("/dev/zero", 1000); }) ==
+        "cannot read /dev/zero: it is larger than 1000 bytes");
 }
 
 // Against the library's own tree parser: the same texts are accepted, broken or not, but for what is stricter

@@ -1,0 +1,145 @@
+// What the program says and returns, whatever it is asked.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/plugin/builtin.h"
+#include "renderer/scene/scene_docs.h"
+#include "tests/catch.h"
+#include "tests/paths.h"
+#include "tests/process.h"
+
+namespace rondure {
+namespace {
+
+const std::string ball = R"({ "objects": [ { "type": "sphere_tiling" } ] })";
+
+ProcessResult run_in(const std::string& folder, std::vector<std::string> arguments) {
+  ProcessOptions options;
+  options.folder = folder;
+  return run_rondure(std::move(arguments), options);
+}
+
+TEST_CASE("a command line that makes no sense gets one message and exit code 1", "[commands]") {
+  struct Row {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const Row table[] = {
+      {{}, "A subcommand is required; see rondure --help"},
+      {{"rendr"}, "unknown command \"rendr\"; did you mean \"render\"?"},
+      {{"frobnicate", "x.json"},
+       "unknown command \"frobnicate\"; known: \"render\", \"trace\", \"eval\", \"info\", \"validate\", "
+       "\"list\", "
+       "\"describe\""},
+      {{"--plugn", "x"}, "unknown option \"--plugn\"; did you mean \"--plugin\"?"},
+      {{"validate"}, "scene is required; see rondure validate --help"},
+      {{"validate", "a", "b"}, "unexpected argument \"b\"; see rondure validate --help"},
+      {{"validate", "a", "--solvr", "newton"}, "unknown option \"--solvr\"; did you mean \"--solver\"?"},
+      {{"render", "a", "--spp", "many"}, "Could not convert: --spp = many; see rondure render --help"},
+      {{"render", "a", "--resolution", "640"},
+       "--resolution: takes WIDTHxHEIGHT, such as 640x480, found \"640\"; see rondure render --help"},
+      {{"render", "a", "--resolution", "0x480"},
+       "--resolution: takes WIDTHxHEIGHT, such as 640x480, found \"0x480\"; see rondure render --help"},
+      {{"render", "a", "--resolution", "64x48x3"},
+       "--resolution: takes WIDTHxHEIGHT, such as 640x480, found \"64x48x3\"; see rondure render --help"},
+      {{"describe", "sphre"}, "unknown type \"sphre\"; did you mean \"sphere\"?"},
+      {{"validate", "missing.json"}, "cannot read missing.json: No such file or directory"},
+      {{"validate", "."}, "cannot read .: it is a folder"},
+      {{"list", "--plugin", "missing.so"}, "plugin missing.so: there is no such file or folder"},
+  };
+  for (const Row& row : table) {
+    const ProcessResult result = run_in(fresh_folder("command_line"), row.arguments);
+    CAPTURE(row.message);
+    CHECK(result.err == "rondure: error: " + row.message + "\n");
+    CHECK(result.out.empty());
+    CHECK(result.exit_code == 1);
+  }
+}
+
+TEST_CASE("help and version go to standard output", "[commands]") {
+  const ProcessResult help = run_rondure({"--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.err.empty());
+  for (const char* command : {"render", "trace", "eval", "info", "validate", "list", "describe"}) {
+    CAPTURE(command);
+    CHECK(help.out.find(fmt::format("\n  {} ", command)) != std::string::npos);
+    const ProcessResult one = run_rondure({command, "--help"});
+    CHECK(one.exit_code == 0);
+    CHECK(one.out.find(fmt::format("Usage: rondure {}", command)) != std::string::npos);
+  }
+  CHECK(run_rondure({"--version"}).out.starts_with("rondure "));
+}
+
+TEST_CASE("validate counts what it read, or points at the fault", "[commands]") {
+  const std::string folder = fresh_folder("validate");
+  write_text_file(folder + "/good.json", ball);
+  write_text_file(folder + "/bad.json",
+                  "{\n  \"objects\": [ { \"type\": \"sphere\", \"radius\": -1 } ]\n}\n");
+  const ProcessResult good = run_in(folder, {"validate", "good.json"});
+  CHECK(good.out == "good.json: valid, 1 object, 6 patches, 1 light, 1 material\n");
+  CHECK(good.err.empty());
+  CHECK(good.exit_code == 0);
+  const ProcessResult bad = run_in(folder, {"validate", "bad.json"});
+  CHECK(bad.err ==
+        "rondure: error: bad.json:2:46: \"radius\" must be a number greater than 0, found -1\n"
+        "  2 |   \"objects\": [ { \"type\": \"sphere\", \"radius\": -1 } ]\n"
+        "    |                                              ^\n");
+  CHECK(bad.out.empty());
+  CHECK(bad.exit_code == 1);
+}
+
+TEST_CASE("options of the scene may stand anywhere and more than once", "[commands]") {
+  const std::string folder = fresh_folder("scene_options");
+  write_text_file(folder + "/s.json", ball);
+  const auto says = [&](std::vector<std::string> arguments) {
+    const ProcessResult result = run_in(folder, std::move(arguments));
+    return result.out + result.err;
+  };
+  const std::string valid = "s.json: valid, 1 object, 8 patches, 1 light, 1 material\n";
+  CHECK(says({"validate", "--set", "/objects/0/type=sphere_octant", "s.json"}) == valid);
+  CHECK(says({"validate", "s.json", "--solver", "clipping", "--set", "/objects/0/type=sphere_octant", "--set",
+              "/objects/0/radius=2"}) == valid);
+  CHECK(says({"validate", "s.json", "--solver", "fast"}) ==
+        "rondure: error: s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found "
+        "\"fast\" (set on "
+        "the command line)\n");
+  CHECK(says({"validate", "s.json", "--set", "/objects/3/radius=2"}) ==
+        "rondure: error: --set /objects/3/radius: \"3\" is not an element of the array, which has 1\n");
+}
+
+TEST_CASE("a full disk is an error", "[commands]") {
+  // The shell is needed for the redirection alone.
+  const ProcessResult result = run_process({"/bin/sh", "-c", "exec \"$0\" list > /dev/full", program_path()});
+  CHECK(result.exit_code == 1);
+  CHECK(result.err == "rondure: error: cannot write to standard output\n");
+}
+
+TEST_CASE("list and describe know every type and parameter", "[commands]") {
+  Registry registry;
+  register_builtins(registry);
+  const std::string list = run_rondure({"list"}).out;
+  std::size_t types = 0;
+  for (const TypeGroup& group : all_types(registry)) {
+    CHECK(list.find(group.kind + ":\n") != std::string::npos);
+    for (const TypeDoc& type : group.types) {
+      CAPTURE(type.name);
+      CHECK(list.find("\n  " + type.name + " ") != std::string::npos);
+      const ProcessResult described = run_rondure({"describe", type.name});
+      CHECK(described.exit_code == 0);
+      CHECK(described.out.find(fmt::format("{} ({})\n{}\n", type.name, group.kind, type.summary)) !=
+            std::string::npos);
+      for (const ParameterDoc& parameter : type.parameters) {
+        CAPTURE(parameter.name);
+        CHECK(described.out.find(fmt::format("\n  {}: {}\n", parameter.name, parameter.type)) !=
+              std::string::npos);
+        CHECK(described.out.find(parameter.meaning) != std::string::npos);
+      }
+      ++types;
+    }
+  }
+  CHECK(types >= 22);
+}
+
+}  // namespace
+}  // namespace rondure
