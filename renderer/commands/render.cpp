@@ -7,15 +7,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <stdexcept>
 
-#include "renderer/api/version.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/commands/tracer_of.h"
@@ -24,7 +21,9 @@
 #include "renderer/film/image.h"
 #include "renderer/film/preview.h"
 #include "renderer/film/resume_state.h"
+#include "renderer/render/interrupt.h"
 #include "renderer/render/progress.h"
+#include "renderer/render/resume_key.h"
 #include "renderer/scene/scene_reader.h"
 
 namespace rondure {
@@ -43,26 +42,6 @@ constexpr std::int64_t most_samples = 1 << 30;
 // Samples of a pass with --resume. After each the state may be saved, or the render interrupted.
 constexpr std::uint32_t pass_samples = 4 * Film::chunk;
 constexpr std::chrono::seconds save_interval{60};
-
-std::atomic<bool> interrupted{false};
-
-// While it lives, the first Ctrl-C asks the render to stop; a second one ends the program as usual.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupted = false;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &before_);
-  }
-  ~InterruptGuard() { sigaction(SIGINT, &before_, nullptr); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
 
 std::optional<Window> read_crop(const std::string& text) {
   if (text.empty()) return {};
@@ -98,18 +77,11 @@ std::string solver_names(const Scene& scene) {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-// What a state file must agree on before it is taken up.
-std::string resume_key(const Scene& scene, const Film& film) {
-  const Window& w = film.window();
-  return fmt::format("rondure {}, scene {:016x}, seed {}, {} x {}, window {},{},{},{}", version, scene.hash,
-                     scene.sampling.seed, film.width(), film.height(), w.x0, w.y0, w.x1, w.y1);
-}
-
-// One pass over the picture, or with --resume several and a state file beside the output.
+// One pass over the picture, or with --resume several and a state file, marked with `key`, beside the output.
 void render_film(Film& film, const Scene& scene, const World& world, RenderOptions render,
-                 const Options& options) {
+                 const std::string& key, const Options& options) {
   const auto target = static_cast<std::uint32_t>(scene.sampling.spp);
-  const std::string state = resume_path(options.output), key = resume_key(scene, film);
+  const std::string state = resume_path(options.output);
   if (options.resume && read_resume_state(state, key, film) && film.samples > target) {
     throw std::runtime_error(
         fmt::format("{}: already holds {} samples a pixel, more than the {} asked for; raise --spp", state,
@@ -121,7 +93,7 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
   Progress progress(fmt::format("{} spp", target), film.whole.size() * passes, progress_style(options.quiet));
   render.progress = [&](std::size_t pixels) { progress.advance(pixels); };
   // With --resume a pass is brought to its end, so that its work can be kept.
-  if (!options.resume) render.stop = [] { return interrupted.load(); };
+  if (!options.resume) render.stop = [] { return interrupted(); };
 
   const InterruptGuard guard;
   auto saved = std::chrono::steady_clock::now();
@@ -130,11 +102,11 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
     add_samples(film, next, scene, world, render);
     if (!options.resume) continue;
     const auto now = std::chrono::steady_clock::now();
-    if (interrupted || film.samples == target || now - saved > save_interval) {
+    if (interrupted() || film.samples == target || now - saved > save_interval) {
       write_resume_state(state, key, film);
       saved = now;
     }
-    if (interrupted && film.samples < target) {
+    if (interrupted() && film.samples < target) {
       progress.clear();
       throw std::runtime_error(
           fmt::format("interrupted; {} samples a pixel are kept in {}", film.whole_samples(), state));
@@ -161,9 +133,10 @@ void render(const CommandContext& context, Options options) {
     check_writable(options.png);
     require_image_module();
   }
+  const std::string key = options.resume ? resume_key(scene, film) : "";
   const Tracer tracer = tracer_of(scene);
   const World world = make_world(scene, tracer);
-  render_film(film, scene, world, settings, options);
+  render_film(film, scene, world, settings, key, options);
 
   ExrHeader header{scene.hash, scene.sampling.seed, scene.integrator_name, solver_names(scene), scene.camera};
   write_exr(options.output, film, header);

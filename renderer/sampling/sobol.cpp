@@ -8,8 +8,8 @@ namespace {
 
 using Directions = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 
-// Boost keeps its direction numbers to itself, but its points show them: point n is the sum (mod 2) of the numbers at
-// the bits of the Gray code n ^ n/2, and the Gray code of 2^(k+1) - 1 is the single bit k.
+// Boost keeps its direction numbers to itself, but its points show them: point n is the sum (mod 2) of the
+// numbers at the bits of the Gray code n ^ n/2, and the Gray code of 2^(k+1) - 1 is the single bit k.
 Directions read_directions() {
   Directions directions{};
   for (int k = 0; k < 32; ++k) {
@@ -46,8 +46,8 @@ std::uint32_t sobol(std::uint32_t index, int dimension) {
 }
 
 std::uint32_t owen_scramble(std::uint32_t value, std::uint32_t seed) {
-  // On reversed bits each step lets low bits act on higher ones only: multiplication by even numbers added in, by odd
-  // ones, and addition all do.
+  // On reversed bits each step lets low bits act on higher ones only: addition does, multiplication by odd
+  // numbers, and the addition (mod 2) of even multiples.
   std::uint32_t x = reverse_bits(value);
   x ^= x * 0x3d20adeau;
   x += seed;

@@ -25,7 +25,8 @@ dvec2 sample_disk(dvec2 uv) {
   const double a = 2.0 * uv.x - 1.0;
   const double b = 2.0 * uv.y - 1.0;
   if (a == 0.0 && b == 0.0) return {0.0, 0.0};
-  // Concentric squares go to concentric circles; in each of four wedges the angle is linear in b / a or a / b.
+  // Concentric squares go to concentric circles; in each of four wedges the angle is linear in b / a or a /
+  // b.
   if (std::abs(a) > std::abs(b)) {
     const double angle = 0.25 * pi * (b / a);
     return {a * std::cos(angle), a * std::sin(angle)};

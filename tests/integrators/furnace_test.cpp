@@ -19,7 +19,8 @@ const char* bodies[] = {R"("type": "sphere")", R"("type": "sphere_tiling", "topo
 
 std::string furnace(const std::string& body, const std::string& material, const std::string& light) {
   return fmt::format(R"({{ "camera": {{ "type": "perspective", "origin": [1, -4, 1.5], "fov": 32 }},
-    "film": {{ "resolution": [40, 40] }}, "integrator": {{ "type": "path", "max_depth": 200, "min_depth": 200 }},
+    "film": {{ "resolution": [40, 40] }}, 
+    "integrator": {{ "type": "path", "max_depth": 200, "min_depth": 200 }},
     "materials": {{ "m": {} }}, "lights": [ {} ], "objects": [ {{ {}, "material": "m" }} ] }})",
                      material, light, body);
 }

@@ -43,10 +43,12 @@ std::string room(const std::string& integrator, const std::string& ball, const s
     "camera": {{ "type": "perspective", "origin": [0, -5, 2], "target": [0, 0, 0.5], "fov": 40 }},
     "film": {{ "resolution": [16, 12], "filter": "box" }}, "sampling": {{ "spp": 400, "seed": 3 }},
     "integrator": {},
-    "materials": {{ "floor": {{ "albedo": [0.5, 0.6, 0.7] }}, "ball": {}, "lamp": {{ "albedo": 0, "emission": [3, 2, 1] }} }},
+    "materials": {{ "floor": {{ "albedo": [0.5, 0.6, 0.7] }}, "ball": {},
+                    "lamp": {{ "albedo": 0, "emission": [3, 2, 1] }} }},
     "lights": [ {{ "type": "constant", "radiance": [0.1, 0.2, 0.3] }} ],
     "objects": [ {{ "type": "sphere", "center": [0, 0, -1000], "radius": 1000, "material": "floor" }},
-                 {{ "type": "sphere_tiling", "topology": "cube", "center": [-0.6, 0, 0.7], "radius": 0.7, "material": "ball" }},
+                 {{ "type": "sphere_tiling", "topology": "cube", "center": [-0.6, 0, 0.7], "radius": 0.7,
+                    "material": "ball" }},
                  {{ "type": "{}", "center": [1.4, 0, 1.2], "radius": 0.8, "material": "lamp" }} ] }})",
                      integrator, ball, lamp);
 }
@@ -94,8 +96,10 @@ TEST_CASE("direct light reaches through mirrors and glass", "[integrators]") {
   // A floor seen in a mirror above and behind: what the mirror shows is what path tracing of two scatterings
   // shows.
   const std::string scene = R"({
-    "camera": { "type": "orthographic", "origin": [0, 0, 2], "target": [0, 0, 9], "up": [0, 1, 0], "height": 0.2 },
-    "film": { "resolution": [8, 8] }, "sampling": { "spp": 64 }, "integrator": { "type": "%", "max_depth": 2 },
+    "camera": { "type": "orthographic", "origin": [0, 0, 2], "target": [0, 0, 9], "up": [0, 1, 0],
+                "height": 0.2 },
+    "film": { "resolution": [8, 8] }, "sampling": { "spp": 64 },
+    "integrator": { "type": "%", "max_depth": 2 },
     "materials": { "mirror": { "type": "mirror", "reflectance": 0.9 }, "floor": { "albedo": 0.5 } },
     "lights": [ { "type": "point", "position": [0, 0, 1], "intensity": 2 } ],
     "objects": [ { "type": "sphere", "center": [0, 0, 105], "radius": 100, "material": "mirror" },
@@ -117,10 +121,14 @@ TEST_CASE("a floor under a ball lamp has the radiance of the formula", "[integra
   for (const char* integrator : {"path", "direct"}) {
     for (const char* lamp : {"sphere", "sphere_tiling", "sphere_octant"}) {
       const StagedScene s(fmt::format(
-          R"({{ "camera": {{ "type": "orthographic", "origin": [0, 0, 0.5], "target": [0, 0, 0], "up": [0, 1, 0], "height": 1e-4 }},
-            "film": {{ "resolution": [4, 4] }}, "sampling": {{ "spp": 4096 }}, "integrator": {{ "type": "{}", "max_depth": 1 }},
-            "materials": {{ "floor": {{ "albedo": 0.8 }}, "lamp": {{ "albedo": 0, "emission": 5 }} }}, "lights": [],
-            "objects": [ {{ "type": "bezier", "material": "floor", "patches": [ {{ "kind": "tensor", "degree": [1, 1],
+          R"({{ "camera": {{ "type": "orthographic", "origin": [0, 0, 0.5], "target": [0, 0, 0],
+                             "up": [0, 1, 0], "height": 1e-4 }},
+            "film": {{ "resolution": [4, 4] }}, "sampling": {{ "spp": 4096 }},
+            "integrator": {{ "type": "{}", "max_depth": 1 }},
+            "materials": {{ "floor": {{ "albedo": 0.8 }}, "lamp": {{ "albedo": 0, "emission": 5 }} }},
+            "lights": [],
+            "objects": [ {{ "type": "bezier", "material": "floor", "patches": [ {{
+                "kind": "tensor", "degree": [1, 1],
                 "net": [ [ [-9, -9, 0, 1], [-9, 9, 0, 1] ], [ [9, -9, 0, 1], [9, 9, 0, 1] ] ] }} ] }},
               {{ "type": "{}", "center": [0, 0, 3], "radius": 1, "material": "lamp" }} ] }})",
           integrator, lamp));
@@ -134,7 +142,8 @@ TEST_CASE("a floor under a ball lamp has the radiance of the formula", "[integra
 
 TEST_CASE("normals are shown as colours", "[integrators]") {
   const StagedScene s(R"({ "integrator": "normals", "film": { "resolution": [31, 31], "filter": "box" },
-    "camera": { "type": "orthographic", "origin": [0, -4, 0], "height": 2.5 }, "objects": [ { "type": "sphere" } ] })");
+    "camera": { "type": "orthographic", "origin": [0, -4, 0], "height": 2.5 },
+    "objects": [ { "type": "sphere" } ] })");
   const Film film = s.render(1);
   int failures = 0, met = 0;
   for (int y = 0; y < 31; ++y) {

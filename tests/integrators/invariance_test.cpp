@@ -13,7 +13,8 @@ std::string scene(const std::string& ball) {
     return fmt::format(R"({{ {}, "center": {}, "radius": 0.7, "material": "{}" }})", ball, place, material);
   };
   return fmt::format(R"({{
-    "camera": {{ "type": "perspective", "origin": [0, -6, 2.2], "target": [0, 0, 0.6], "fov": 34, "aperture": 0.03 }},
+    "camera": {{ "type": "perspective", "origin": [0, -6, 2.2], "target": [0, 0, 0.6], "fov": 34,
+                 "aperture": 0.03 }},
     "film": {{ "resolution": [72, 40] }}, "sampling": {{ "spp": 16, "seed": 7 }},
     "integrator": {{ "type": "path", "max_depth": 8 }},
     "materials": {{ "clay": {{ "albedo": [0.7, 0.5, 0.3] }}, "glass": {{ "type": "dielectric" }},

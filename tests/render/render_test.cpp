@@ -4,7 +4,9 @@
 #include <cstring>
 #include <limits>
 
+#include "renderer/film/image.h"
 #include "renderer/film/resume_state.h"
+#include "renderer/render/resume_key.h"
 #include "tests/catch.h"
 #include "tests/process.h"
 #include "tests/render/staged_scene.h"
@@ -94,6 +96,27 @@ TEST_CASE("a film taken up again has the bits of one run", "[render]") {
   write_text_file(path, read_text_file(path).substr(0, 1000));
   CHECK_THROWS_WITH(read_resume_state(path, "key", other),
                     path + ": the file is damaged; delete it to start anew");
+}
+
+TEST_CASE("the key of saved sums tells scenes apart, also by what their text only points to", "[render]") {
+  const std::string file = fresh_folder("resume_key") + "/sky.png";
+  write_png(file, 4, 2, std::vector<unsigned char>(24, 255));
+  const std::string text = R"({ "film": { "resolution": [8, 8] }, "objects": [ { "type": "sphere_octant" } ],
+    "lights": [ { "type": "environment", "file": ")" +
+                           file + R"(" } ] })";
+  Scene scene = read_scene_text("test.json", text, StagedScene::builtins());
+  const Film film = make_film(scene, {});
+  const std::string key = resume_key(scene, film);
+  CHECK(resume_key(read_scene_text("elsewhere.json", text, StagedScene::builtins()), film) == key);
+  points_of(scene.objects[0].traced.surface.patches[3])[4].y += 0.125;
+  CHECK(resume_key(scene, film) != key);
+  points_of(scene.objects[0].traced.surface.patches[3])[4].y -= 0.125;
+  CHECK(resume_key(scene, film) == key);
+  write_png(file, 4, 2, std::vector<unsigned char>(24, 254));
+  CHECK(resume_key(scene, film) != key);
+  scene.sampling.seed = 2;
+  write_png(file, 4, 2, std::vector<unsigned char>(24, 255));
+  CHECK(resume_key(scene, film) != key);
 }
 
 // Gives a wrong number at some pixels.

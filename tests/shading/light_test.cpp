@@ -32,7 +32,8 @@ const Lamp lamps[] = {
     {R"("type": "sphere_tiling", "topology": "cube", "center": [0.5, -0.25, 1], "radius": 0.7)", 0.7},
     {R"("type": "sphere_tiling", "topology": "hemispheres", "center": [0.5, -0.25, 1], "radius": 0.7)", 0.7},
     {R"("type": "sphere_octant", "center": [0.5, -0.25, 1], "radius": 0.7)", 0.7},
-    {R"("type": "sphere", "transform": [[1, 0.2, 0, 0.5], [0, 0.5, 0.3, -0.25], [0, 0, 0.8, 1], [0, 0, 0, 1]])",
+    {R"("type": "sphere", "transform": [[1, 0.2, 0, 0.5],
+        [0, 0.5, 0.3, -0.25], [0, 0, 0.8, 1], [0, 0, 0, 1]])",
      0.0},
     {R"("type": "bezier", "patches": [ { "kind": "triangle", "degree": 2, "net": {
         "200": [1.5, -0.25, 1, 1], "020": [0.5, -0.25, 2, 1], "002": [0.5, 0.75, 0.5, 1],
