@@ -38,9 +38,16 @@ struct TensorShape {
   template <class T>
   void derive_b(const T* f, T* out) const { tensor_derivative_v(f, m, n, out); }
   template <class T>
-  FirstOrder<T> first(const T* f, dvec2 p) const { return tensor_first(f, m, n, p.x, p.y); }
+  FirstOrder<T> first(const T* f, dvec2 p) const {
+    if (m == 4 && n == 4) return tensor_first<4, 4>(f, 4, 4, p.x, p.y);
+    return tensor_first(f, m, n, p.x, p.y);
+  }
   template <class T>
-  SecondOrder<T> second(const T* f, dvec2 p) const { return tensor_second(f, m, n, p.x, p.y); }
+  SecondOrder<T> second(const T* f, dvec2 p) const {
+    if (m == 4 && n == 4) return tensor_second<4, 4>(f, 4, 4, p.x, p.y);
+    if (m == 2 && n == 2) return tensor_second<2, 2>(f, 2, 2, p.x, p.y);
+    return tensor_second(f, m, n, p.x, p.y);
+  }
   template <class T>
   void restrict_to(const T* patch, const Cell& c, T* out) const {
     tensor_restrict(patch, m, n, c.low.x, c.high.x, c.low.y, c.high.y, out);

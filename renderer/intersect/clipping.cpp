@@ -116,7 +116,7 @@ class Search {
       Hull g;
       for (std::size_t k = 0; k < size_; ++k) g.add(inverse_ * f[k]);
       if (g.avoids_zero(band)) return Outcome::finished;
-      if (is_simple(f)) return solve_simple(f, cell, band);
+      if (std::max(band.x, band.y) < 0.1 && is_simple(f)) return solve_simple(f, cell, band);
     }
     return try_fold(f, cell, jacobian);
   }

@@ -8,6 +8,7 @@ namespace rondure {
 struct Crossing {
   double s = 0.0;        // t in the local ray's units, from its base
   double s_error = 0.0;  // bound on the error of `s`
+  double extent = 0.0;   // size of the surface, as its radius of curvature where that matters
   int sign = 0;          // of direction . normal: -1 entering, +1 leaving, 0 when rounding cannot tell
 };
 
@@ -24,6 +25,7 @@ inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dve
   const double quadratic = std::sqrt(2.0 * error * extent);
   const double shift = error < quadratic * cosine ? error / cosine : quadratic;  // also when the normal vanishes
   c.s_error = 2.0 * shift / length + 0x1p-52 * std::fabs(ray.slide + c.s);
+  c.extent = extent;
   c.sign = tangent || !(std::fabs(along) > 0.0) ? 0 : (along > 0.0 ? 1 : -1);
   return c;
 }
@@ -37,10 +39,11 @@ inline bool accept(const Ray& ray, const LocalRay& local, int surface, const dve
   t = (local.slide + c.s) * local.scale;
   if (ray.start.surface == surface) {
     // The start is a rounded world position: it is off by an ulp of itself, along the normal too.
-    const double moved = 0x1p-52 * (largest(ray.origin) + largest(frame)) / std::sqrt(local.length2);
-    const double leaving = glm::dot(ray.start.normal, local.direction);
-    const double cosine = std::fabs(leaving) / std::sqrt(local.length2);
-    const double bound = (c.s_error + std::fmin(2.0 * moved / cosine, std::sqrt(moved))) * local.scale;
+    const double moved = 0x1p-52 * (largest(ray.origin) + largest(frame)), length = std::sqrt(local.length2);
+    const double leaving = glm::dot(ray.start.normal, local.direction), cosine = std::fabs(leaving) / length;
+    const double quadratic = 2.0 * std::sqrt(2.0 * moved * c.extent);
+    const double shift = moved < quadratic * cosine ? moved / cosine : quadratic;
+    const double bound = (c.s_error + 2.0 * shift / length) * local.scale;
     const int side = leaving > 0.0 ? 1 : -1;
     if (std::fabs(t) <= bound) {
       if (c.sign == side || c.sign == 0) return false;

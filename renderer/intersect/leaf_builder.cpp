@@ -145,7 +145,7 @@ class Builder {
 
 void check_finite(const std::vector<dvec4>& points, int patch) {
   for (const dvec4& p : points)
-    if (!std::isfinite(largest(dvec3(p))) || !std::isfinite(p.w))
+    if (!is_finite(dvec3(p)) || !std::isfinite(p.w))
       throw std::runtime_error(fmt::format("patch {}: a control point is not finite", patch));
 }
 

@@ -23,13 +23,15 @@ struct LocalRay {
   dvec4 plane[2];
 };
 
-// |x| as the largest component: cheap, and within sqrt(3) of the length.
+// |x| as the largest component: cheap, and within sqrt(3) of the length. Blind to NaN.
 inline double largest(const dvec3& x) { return std::fmax(std::fmax(std::fabs(x.x), std::fabs(x.y)), std::fabs(x.z)); }
+
+inline bool is_finite(const dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
 
 // False when the ray is not finite or has no direction: such a ray meets nothing.
 inline bool make_local_ray(const dvec3& origin, const dvec3& direction, const dvec3& frame, LocalRay& out) {
   const double size = largest(direction);
-  if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(largest(origin))) return false;
+  if (!(size > 0.0) || !is_finite(direction) || !is_finite(origin)) return false;
   const int exponent = std::ilogb(size);
   // Two steps, so that neither factor overflows for denormal directions.
   const double half = std::ldexp(1.0, -(exponent / 2)), rest = std::ldexp(1.0, -(exponent - exponent / 2));

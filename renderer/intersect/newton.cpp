@@ -29,7 +29,8 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
   const dvec4 p0 = glm::abs(r.plane[0]), p1 = glm::abs(r.plane[1]);
   const dvec4 spread = leaf.spread_a + leaf.spread_b;
   const Inverse inverse(da, db);
-  const dvec2 slack = inverse.bound(dvec2(glm::dot(p0, spread), glm::dot(p1, spread)));
+  // The Jacobian itself is rounded too: flat leaves have no spread, and yet no proof when a ray lies in them.
+  const dvec2 slack = inverse.bound(dvec2(glm::dot(p0, spread), glm::dot(p1, spread)) + 4.0 * error);
   const dvec2 rounding = inverse.bound(dvec2(2.0 * error));
   const dvec2 room = slack * Shape::half_width() + rounding;
   dvec2 p = Shape::center() - inverse * f;

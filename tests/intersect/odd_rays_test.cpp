@@ -1,0 +1,98 @@
+// Rays that no camera makes: not finite, without direction, of extreme length; and rays that lie in a surface.
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/exact_surfaces.h"
+
+using namespace rondure;
+
+namespace {
+constexpr double inf = std::numeric_limits<double>::infinity(), no_number = std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST_CASE("Rays that are not finite or have no direction hit nothing", "[hits]") {
+  const Tracer tracer({{family_surface(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton}});
+  const dvec3 good(0.0, 0.0, -3.0), along(0.0, 0.0, 1.0);
+  for (const double bad : {no_number, inf, -inf}) {
+    for (int k = 0; k < 3; ++k) {
+      dvec3 origin = good, direction = along;
+      origin[k] = bad;
+      CHECK_FALSE(tracer.closest({origin, along}));
+      direction[k] = bad;
+      CHECK_FALSE(tracer.closest({good, direction}));
+      CHECK_FALSE(tracer.occluded({good, direction}));
+      CHECK(tracer.all({good, direction}).empty());
+    }
+    CHECK_FALSE(tracer.closest({good, along, no_number, inf}));
+    CHECK_FALSE(tracer.closest({good, along, 0.0, no_number}));
+  }
+  CHECK_FALSE(tracer.closest({good, dvec3(0.0)}));
+  CHECK_FALSE(tracer.closest({good, along, 5.0, 1.0}));
+  CHECK(tracer.closest({good, along}));
+}
+
+TEST_CASE("The length of the direction changes t alone", "[hits]") {
+  const Tracer tracer({{family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), Solver::newton}});
+  const dvec3 origin(0.1, 0.2, -3.0), direction(0.01, -0.02, 1.0);
+  const Hit unit = tracer.closest({origin, direction});
+  REQUIRE(unit);
+  for (const int exponent : {-1020, -600, -40, 1, 40, 600, 1000}) {
+    const double scale = std::ldexp(1.0, exponent);
+    const Hit hit = tracer.closest({origin, direction * scale});
+    CAPTURE(exponent);
+    REQUIRE(hit);
+    CHECK(hit.point == unit.point);
+    CHECK(hit.t * scale == unit.t);
+  }
+}
+
+TEST_CASE("t_min and t_max bound the hits", "[hits]") {
+  const Tracer tracer({{family_surface(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton}});
+  const dvec3 origin(0.1, 0.2, -3.0), direction(0.0, 0.0, 1.0);
+  const std::vector<Hit> both = tracer.all({origin, direction});
+  REQUIRE(both.size() == 2);
+  const double near = both[0].t, far = both[1].t, middle = 0.5 * (near + far);
+  CHECK(tracer.closest({origin, direction, middle, inf}).t == far);
+  CHECK(tracer.closest({origin, direction, 0.0, middle}).t == near);
+  CHECK(tracer.all({origin, direction, middle, inf}).size() == 1);
+  CHECK_FALSE(tracer.occluded({origin, direction, near + 1e-9, far - 1e-9}));
+  CHECK(tracer.occluded({origin, direction, near, far}));
+  CHECK_FALSE(tracer.closest({origin, direction, far + 1e-9, inf}));
+  // Behind the origin there is nothing unless it is asked for.
+  CHECK_FALSE(tracer.closest({origin, -direction}));
+  CHECK(tracer.closest({origin, -direction, -10.0, inf}).t == -far);
+}
+
+TEST_CASE("A ray inside a plane patch ends, and a ray across it hits once", "[hits]") {
+  const Tracer tracer({{family_surface(R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
+      "net": [[[-1, -1, 0, 1], [-1, 1, 0, 1]], [[1, -1, 0, 1], [1, 1, 0, 1]]]}]})"), Solver::newton}});
+  CHECK(tracer.all({dvec3(-3.0, 0.1, 0.0), dvec3(1.0, 0.0, 0.0)}).empty());
+  CHECK(tracer.all({dvec3(-3.0, -3.0, 0.0), dvec3(1.0, 1.0, 0.0)}).empty());
+  CHECK(tracer.all({dvec3(0.3, 0.1, 2.0), dvec3(0.0, 0.0, -1.0)}).size() == 1);
+  CHECK(tracer.all({dvec3(1.0, 1.0, 2.0), dvec3(0.0, 0.0, -1.0)}).size() == 1);
+  CHECK(tracer.all({dvec3(1.0 + 1e-9, 1.0, 2.0), dvec3(0.0, 0.0, -1.0)}).empty());
+  const std::vector<Hit> slanted = tracer.all({dvec3(-3.0, 0.0, 3e-9), dvec3(1.0, 0.0, -1e-9)});
+  REQUIRE(slanted.size() == 1);
+  CHECK(std::fabs(slanted[0].t - 3.0) < 1e-6);
+}
+
+TEST_CASE("Nets that cannot be bounded are refused by object and patch", "[hits]") {
+  Surface surface;
+  TensorNet net(1, 1);
+  for (int k = 0; k < 4; ++k) net.points[static_cast<std::size_t>(k)] = dvec4(k % 2, k / 2, 0.0, k == 3 ? -1.0 : 1.0);
+  surface.patches.push_back(net);
+  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}), Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
+  net.points[3].w = 1.0;
+  net.points[2].x = no_number;
+  surface.patches[0] = net;
+  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}), "object 0: patch 0: a control point is not finite");
+}
+
+TEST_CASE("An empty scene is met by nothing", "[hits]") {
+  const Tracer tracer(std::vector<TracedSurface>{});
+  CHECK_FALSE(tracer.closest({dvec3(0.0), dvec3(0.0, 0.0, 1.0)}));
+  CHECK(tracer.statistics().leaves == 0);
+}

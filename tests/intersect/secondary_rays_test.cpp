@@ -1,0 +1,73 @@
+// Rays that start where others ended: leaving a convex surface they never meet it again, entering it they meet the far wall.
+
+#include <fmt/core.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/exact_surfaces.h"
+
+using namespace rondure;
+
+namespace {
+
+dvec3 random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const double x = normal(random), y = normal(random), z = normal(random);
+  return glm::normalize(dvec3(x, y, z) + dvec3(1e-300));
+}
+
+// A direction that makes an angle with the surface of 10^-8 to 1.
+dvec3 grazing(const dvec3& normal, std::mt19937_64& random, double side) {
+  const double rise = std::pow(10.0, -8.0 * std::uniform_real_distribution<double>(0.0, 1.0)(random));
+  return glm::normalize(glm::normalize(glm::cross(normal, random_direction(random))) + side * rise * normal);
+}
+
+}  // namespace
+
+TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering it always do", "[hits]") {
+  std::mt19937_64 random(17);
+  long hits = 0, self_hits = 0, escapes = 0, short_chords = 0;
+  std::string worst = "none";
+  for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere_tiling", "topology": "hemispheres"})",
+                             R"({"type": "sphere_octant"})", R"({"type": "sphere"})"})
+    for (const double radius : {1e-4, 1.0, 1e4})
+      for (const double distance : {1e-8, 1.0, 1e8}) {
+        // The surface stands `distance` radii from the origin, and the rays come from as far again.
+        const dvec3 center = radius * distance * glm::normalize(dvec3(1.0, 2.0, -3.0));
+        const Tracer tracer({{placed(family_surface(family), radius, center), Solver::newton}});
+        for (int k = 0; k < 1500; ++k) {
+          const dvec3 origin = center + radius * (1.5 + distance) * random_direction(random);
+          const dvec3 target = center + 0.98 * radius * random_direction(random) * std::uniform_real_distribution<double>(0.0, 1.0)(random);
+          const Hit hit = tracer.closest({origin, target - origin});
+          if (!hit) continue;
+          ++hits;
+          const RayStart start{hit.surface, hit.normal};
+          const auto describe = [&](const dvec3& d) {
+            return fmt::format("{}, radius {}, distance {}: from ({:.17g}, {:.17g}, {:.17g}) along ({:.17g}, {:.17g}, {:.17g})", family, radius,
+                               distance, hit.point.x, hit.point.y, hit.point.z, d.x, d.y, d.z);
+          };
+          const dvec3 out = grazing(hit.normal, random, 1.0);
+          const Ray leaving{hit.point, out, 0.0, INFINITY, start};
+          if (tracer.occluded(leaving) || tracer.closest(leaving)) ++self_hits, worst = describe(out);
+          const dvec3 in = grazing(hit.normal, random, -1.0);
+          const Ray entering{hit.point, in, 0.0, INFINITY, start};
+          const Hit far = tracer.closest(entering);
+          // A chord shorter than the start's own rounding (an ulp of its coordinates, over the angle) may not show.
+          const double chord = -2.0 * radius * glm::dot(in, hit.normal);
+          const double doubt = 64.0 * 0x1p-52 * (radius + glm::length(center)) / -glm::dot(in, hit.normal);
+          if (chord < doubt) {
+            ++short_chords;
+            continue;
+          }
+          if (!far || std::fabs(far.t - chord) > doubt) ++escapes, worst = describe(in);
+        }
+      }
+  INFO(hits << " hits, " << short_chords << " chords too short to tell; worst: " << worst);
+  CHECK(self_hits == 0);
+  CHECK(escapes == 0);
+  CHECK(hits > 45'000);
+  CHECK(short_chords < hits / 2);
+}
