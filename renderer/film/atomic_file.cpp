@@ -16,9 +16,10 @@
 namespace rondure {
 namespace {
 
-[[noreturn]] void refuse(const std::string& target, int error) {
-  throw std::runtime_error(fmt::format("{}: cannot write: {}", target, std::strerror(error)));
+[[noreturn]] void refuse(const std::string& target, const char* reason) {
+  throw std::runtime_error(fmt::format("{}: cannot write: {}", target, reason));
 }
+[[noreturn]] void refuse(const std::string& target, int error) { refuse(target, std::strerror(error)); }
 
 // Data that is renamed before it is on the disk may be lost under the new name.
 int synchronise(const std::string& path, int flags) {
@@ -33,7 +34,16 @@ int synchronise(const std::string& path, int flags) {
 
 AtomicFile::AtomicFile(std::string target, const std::string& suffix) : target_(std::move(target)) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(target_, ignored)) refuse(target_, EISDIR);
+  const auto status = std::filesystem::status(target_, ignored);
+  if (std::filesystem::is_directory(status)) refuse(target_, EISDIR);
+  // Renaming would put a plain file in a device's place.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    refuse(target_, "not a regular file");
+  }
+  // The file that a link leads to gives way, and the link stays.
+  if (std::filesystem::exists(status) && std::filesystem::is_symlink(target_, ignored)) {
+    target_ = std::filesystem::canonical(target_, ignored).string();
+  }
   const std::string name = target_ + ".part-XXXXXX" + suffix;
   std::vector<char> buffer(name.begin(), name.end());
   buffer.push_back('\0');

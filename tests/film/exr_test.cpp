@@ -168,12 +168,22 @@ TEST_CASE("a name that cannot be written is refused, and nothing is left", "[fil
   CHECK_THROWS_WITH(check_writable(folder), folder + ": cannot write: Is a directory");
   CHECK_THROWS_WITH(write_exr(folder + "/no/a.exr", make_film(), make_header()),
                     Catch::Contains("/no/a.exr: cannot write"));
+  CHECK_THROWS_WITH(check_writable("/dev/null"), "/dev/null: cannot write: not a regular file");
   check_writable(folder + "/a.exr");
   {
     AtomicFile abandoned(folder + "/a.exr");
     CHECK(std::filesystem::exists(abandoned.temporary()));
   }
   CHECK(std::filesystem::is_empty(folder));
+
+  // Through a link, the file that it leads to is replaced.
+  write_text_file(folder + "/file", "old");
+  std::filesystem::create_symlink("file", folder + "/link");
+  AtomicFile through(folder + "/link");
+  write_text_file(through.temporary(), "new");
+  through.commit();
+  CHECK(std::filesystem::is_symlink(folder + "/link"));
+  CHECK(read_text_file(folder + "/file") == "new");
 }
 
 }  // namespace
