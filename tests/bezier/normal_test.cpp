@@ -110,6 +110,14 @@ TEST_CASE("limit normals survive an affine map and a change of scale", "[bezier]
   REQUIRE(worst.failures() == 0);
 }
 
+TEST_CASE("a net with every sign turned is the same surface, with the same normals", "[bezier][normal]") {
+  Net net = hemisphere();
+  for (dvec4& p : points_of(net)) p = -p;
+  for (const double t : {0.0, 1e-9, 1e-3, 0.4}) {
+    CHECK(angle(unit_normal(net, t, 0.0), unit_normal(hemisphere(), t, 0.0)) < 1e-15);
+  }
+}
+
 TEST_CASE("corners with parallel tangents have the limit of the inner normals", "[bezier][normal]") {
   NetMaker make(11);
   WorstCase worst;
