@@ -13,7 +13,6 @@ namespace {
 constexpr int depth_limit = 112;             // 53 halvings of each parameter, and a few clips
 constexpr std::size_t cell_limit = 1 << 14;  // a tangential ray takes tens; a net that takes this many is broken
 constexpr double contraction = 0.3;          // below 1/3, full Newton steps converge from anywhere in the cell
-constexpr double macroscopic = 0x1p20;       // times the rounding error: no isolated root looks like this
 
 constexpr double point_size = 16.0;           // times the rounding error: what is so small is one candidate
 
@@ -55,7 +54,7 @@ class Search {
       }
       dvec2* f = net(level);
       const bool deepest = frame.depth >= depth_limit;
-      if (examine(f, frame.cell) == Outcome::finished || deepest) {
+      if (examine(f, frame) == Outcome::finished || deepest) {
         if (deepest) keep(Shape::to_patch(frame.cell, Shape::center()), true);
         --level;
         continue;
@@ -96,7 +95,8 @@ class Search {
     return h;
   }
 
-  Outcome examine(const dvec2* f, const typename Shape::Cell& cell) {
+  Outcome examine(const dvec2* f, const Frame<Shape>& frame) {
+    const typename Shape::Cell& cell = frame.cell;
     const Hull raw = hull(f);
     invertible_ = false;
     if (raw.avoids_zero(dvec2(error_))) return Outcome::finished;
@@ -118,7 +118,7 @@ class Search {
       if (g.avoids_zero(band)) return Outcome::finished;
       if (std::max(band.x, band.y) < 0.1 && is_simple(f)) return solve_simple(f, cell, band);
     }
-    return try_fold(f, cell, jacobian);
+    return try_fold(f, frame, jacobian);
   }
 
   dvec2 preconditioned_error() const {
@@ -156,7 +156,8 @@ class Search {
     return Outcome::finished;
   }
 
-  Outcome try_fold(const dvec2* f, const typename Shape::Cell& cell, const glm::dmat2& jacobian) {
+  Outcome try_fold(const dvec2* f, const Frame<Shape>& frame, const glm::dmat2& jacobian) {
+    const typename Shape::Cell& cell = frame.cell;
     // Turn the two planes about the ray so that the first polynomial takes all of the gradient that one can take.
     const dvec2 row0(jacobian[0].x, jacobian[1].x), row1(jacobian[0].y, jacobian[1].y);
     const double angle = 0.5 * std::atan2(2.0 * glm::dot(row0, row1), glm::dot(row0, row0) - glm::dot(row1, row1));
@@ -186,7 +187,12 @@ class Search {
       if (swapped) std::swap(x[k], y[k]);
     }
     if (y[0].contains_zero()) return Outcome::divide;
-    if (h.magnitude().y <= error_ && h.magnitude().x > macroscopic * error_) return Outcome::finished;
+    if (h.magnitude().y <= point_size * error_) {
+      // The ray clings to the surface all along the graph. Over a whole leaf it lies inside: no isolated root.
+      if (frame.depth == 0 && h.magnitude().y <= error_) return Outcome::finished;
+      if (keep_on_graph(t, cell, swapped)) return Outcome::finished;
+      return Outcome::divide;
+    }
 
     Interval xx[2], xy[2], yy[2];
     dvec2* second = work_->second[0].data();
@@ -220,6 +226,40 @@ class Search {
     }
     keep_pair(cell, fold);
     return Outcome::finished;
+  }
+
+  // Candidates for a cell in which the second polynomial is hardly more than its rounding error: contact of high order, or a
+  // grazing ray at a singular point. Where it changes sign along the graph of the first, else where it is least.
+  bool keep_on_graph(const dvec2* t, const typename Shape::Cell& cell, bool swapped) {
+    const fold_detail::Axes axes{swapped};
+    struct Sample {
+      double x, y, h;
+      bool inside;
+    };
+    const auto sample = [&](double x, double y) {
+      const double h = fold_detail::along_graph(shape_, t, axes, x, y).h;
+      return Sample{x, y, h, Shape::outside(axes.to_cell(x, y)) <= 1e-9};
+    };
+    const auto keep_sample = [&](const Sample& s) { keep(Shape::to_patch(cell, axes.to_cell(s.x, s.y)), true); };
+    constexpr int steps = 8;
+    Sample last = sample(0.0, 0.5), least = last;
+    bool crossed = false;
+    for (int k = 1; k <= steps; ++k) {
+      const Sample next = sample(static_cast<double>(k) / steps, last.y);
+      if (last.inside && next.inside && (last.h < 0.0) != (next.h < 0.0)) {
+        Sample low = last, high = next;
+        for (int j = 0; j < 24; ++j) {
+          const Sample middle = sample(0.5 * (low.x + high.x), 0.5 * (low.y + high.y));
+          ((middle.h < 0.0) == (low.h < 0.0) ? low : high) = middle;
+        }
+        keep_sample(low);
+        crossed = true;
+      }
+      if (next.inside && (!least.inside || std::fabs(next.h) < std::fabs(least.h))) least = next;
+      last = next;
+    }
+    if (!crossed && least.inside) keep_sample(least);
+    return crossed || least.inside;
   }
 
   // Roots of a pair that lie within the patch count as they are. If neither does, the nearer may be there by rounding; but
