@@ -9,6 +9,7 @@
 #include "renderer/commands/commands.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/commands/tracer_of.h"
+#include "renderer/render/render.h"
 #include "renderer/scene/scene_reader.h"
 
 namespace rondure {
@@ -18,7 +19,8 @@ const char* plural(std::size_t n) { return n == 1 ? "" : "s"; }
 
 void validate(const Registry& registry, const SceneOptions& options) {
   Scene scene = read_scene(options.path, registry, options.overrides);
-  const Tracer tracer = tracer_of(scene);  // refuses nets that no solver can bound
+  const Tracer tracer = tracer_of(scene);         // refuses nets that no solver can bound
+  const World world = make_world(scene, tracer);  // reads images
   const TracerStatistics count = tracer.statistics();
   fmt::print("{}: valid, {} object{}, {} patch{}, {} light{}, {} material{}\n", options.path,
              scene.objects.size(), plural(scene.objects.size()), count.patches,
