@@ -36,9 +36,10 @@ struct LeafSet {
   std::vector<Box> boxes;  // one a leaf, in the surface's frame; contain the leaf's control points
 };
 
-// Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular points,
-// until a depth at which `clipping` takes them. Throws std::runtime_error, naming the patch, when a net is not
-// finite, is of too high a degree, or has weights that stay of both signs (or zero) under subdivision.
-LeafSet build_leaves(const std::vector<Net>& patches);
+// Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular points, for
+// `max_depth` halvings; what is not tame then goes to `clipping`, slower and just as right. Throws std::runtime_error,
+// naming the patch, when a net is not finite, is of too high a degree, or has weights that stay of both signs (or
+// zero) under subdivision.
+LeafSet build_leaves(const std::vector<Net>& patches, int max_depth);
 
 }  // namespace rondure

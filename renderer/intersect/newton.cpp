@@ -22,6 +22,26 @@ struct Inverse {
   dvec2 bound(dvec2 f) const { return dvec2(std::fabs(aa) * f.x + std::fabs(ab) * f.y, std::fabs(ba) * f.x + std::fabs(bb) * f.y); }
 };
 
+// Whether a combination of the two planes keeps clear of the whole leaf. For a grazing ray the inverse of the Jacobian
+// proves nothing, but the plane through the ray that lies along the leaf (the combination with the least gradient) does.
+bool some_plane_misses(const Leaf& leaf, const LocalRay& ray, dvec2 f, dvec2 da, dvec2 db, double half_width, double error) {
+  const double xx = da.x * da.x + db.x * db.x, yy = da.y * da.y + db.y * db.y, xy = da.x * da.y + db.x * db.y;
+  // Eigenvectors of the Gram matrix of the gradients: the least gradient, and at right angles to it the greatest.
+  const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
+  dvec2 c = split > 0.0 ? dvec2(-xy, split + root) : dvec2(root - split, -xy);
+  const double length = glm::length(c);
+  if (!(length > 0.0)) return false;
+  c /= length;
+  const dvec4 spread = leaf.spread_a + leaf.spread_b;
+  for (int k = 0; k < 2; ++k) {
+    const dvec4 plane = glm::abs(c.x * ray.plane[0] + c.y * ray.plane[1]);
+    const double reach = std::fabs(glm::dot(c, da)) + std::fabs(glm::dot(c, db)) + glm::dot(plane, spread);
+    if (std::fabs(glm::dot(c, f)) > half_width * reach + 3.0 * error) return true;
+    c = dvec2(-c.y, c.x);
+  }
+  return false;
+}
+
 template <class Shape, class Evaluate>
 NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay& ray, double error, Root& root, NewtonCounts& counts) {
   const dvec2 f = project(ray, leaf.center), da = project(ray, leaf.da), db = project(ray, leaf.db);
@@ -42,7 +62,10 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
     misses = p.x < -room.x || p.y < -room.y || p.x + p.y > 1.0 + room.x + room.y;
   const bool finite = std::isfinite(room.x + room.y);
   if (misses && finite) return NewtonVerdict::none;
-  if (!finite || !(std::max(slack.x, slack.y) < contraction_limit)) return NewtonVerdict::undecided;
+  if (!finite || !(std::max(slack.x, slack.y) < contraction_limit)) {
+    const bool clear = some_plane_misses(leaf, ray, f, da, db, Shape::half_width(), error);
+    return clear ? NewtonVerdict::none : NewtonVerdict::undecided;
+  }
 
   ++counts.iterated;
   for (int k = 0; k < step_limit; ++k) {

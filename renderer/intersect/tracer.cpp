@@ -1,6 +1,7 @@
 #include "renderer/intersect/tracer.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -148,40 +149,66 @@ struct Tracer::Implementation {
   }
 };
 
+namespace {
+
+// Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
+constexpr double leaf_budget = 0x1p22;
+constexpr int deepest = 11, shallowest = 2;
+
+CompiledSurface compile(const Surface& surface, int max_depth) {
+  CompiledSurface compiled;
+  compiled.frame = surface.origin;
+  if (surface.ellipsoid) {
+    compiled.ellipsoid.emplace(*surface.ellipsoid);
+    const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
+    const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+    compiled.set.boxes = {Box{-half, half}};
+  } else {
+    compiled.set = build_leaves(surface.patches, max_depth);
+  }
+  return compiled;
+}
+
+}  // namespace
+
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.surfaces = std::move(surfaces);
-  std::vector<std::vector<Box>> boxes(self.surfaces.size());
-  Box world;
-  for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
-    const Surface& surface = self.surfaces[k].surface;
-    CompiledSurface compiled;
-    compiled.frame = surface.origin;
-    if (surface.ellipsoid) {
-      compiled.ellipsoid.emplace(*surface.ellipsoid);
-      const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
-      const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
-      boxes[k] = {Box{-half, half}};
-    } else {
-      try {
-        compiled.set = build_leaves(surface.patches);
-      } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format("object {}: {}", k, error.what()));
-      }
-      boxes[k].swap(compiled.set.boxes);
+  const std::size_t count = self.surfaces.size();
+  std::size_t patches = 1;
+  for (const TracedSurface& traced : self.surfaces) patches += traced.surface.patches.size();
+  const int depth = std::clamp(static_cast<int>(std::log2(leaf_budget / static_cast<double>(patches))), shallowest, deepest);
+
+  self.compiled.resize(count);
+  std::vector<std::string> errors(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+    try {
+      self.compiled[k] = compile(self.surfaces[k].surface, depth);
+    } catch (const std::runtime_error& error) {
+      errors[k] = error.what();
     }
-    for (const Box& box : boxes[k]) world.add(Box{box.low + surface.origin, box.high + surface.origin});
-    self.leaf_count += boxes[k].size();
-    self.compiled.push_back(std::move(compiled));
+  });
+  // The first in the scene's order, whichever thread met its own first.
+  for (std::size_t k = 0; k < count; ++k)
+    if (!errors[k].empty()) throw std::runtime_error(fmt::format("object {}: {}", k, errors[k]));
+
+  Box world;
+  for (std::size_t k = 0; k < count; ++k) {
+    const dvec3& origin = self.surfaces[k].surface.origin;
+    for (const Box& box : self.compiled[k].set.boxes) world.add(Box{box.low + origin, box.high + origin});
+    self.leaf_count += self.compiled[k].set.boxes.size();
   }
   if (self.leaf_count == 0) return;
   self.center = world.center();
-  for (std::size_t k = 0; k < boxes.size(); ++k)
+  std::vector<std::vector<Box>> boxes(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    boxes[k].swap(self.compiled[k].set.boxes);
+    const dvec3 shift = self.compiled[k].frame - self.center;
     for (Box& box : boxes[k]) {
-      const dvec3 shift = self.compiled[k].frame - self.center;
       box.low += shift, box.high += shift;
-      self.radius = std::max({self.radius, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)))});
+      self.radius = std::max(self.radius, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high))));
     }
+  }
   self.embree = std::make_unique<EmbreeScene>(boxes, self.radius, visit_leaf);
 }
 
