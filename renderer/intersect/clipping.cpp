@@ -241,7 +241,7 @@ class Search {
       return Sample{x, y, h, Shape::outside(axes.to_cell(x, y)) <= 1e-9};
     };
     const auto keep_sample = [&](const Sample& s) { keep(Shape::to_patch(cell, axes.to_cell(s.x, s.y)), true); };
-    constexpr int steps = 8;
+    constexpr int steps = 16;
     Sample last = sample(0.0, 0.5), least = last;
     bool crossed = false;
     for (int k = 1; k <= steps; ++k) {

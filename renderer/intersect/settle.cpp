@@ -58,25 +58,40 @@ FirstOrder<dvec2> projected(const Net& net, const LocalRay& ray, dvec2 p) {
   return {project(ray, s.value), project(ray, s.du), project(ray, s.dv)};
 }
 
-// Damped least-squares steps (Levenberg 1944), each kept only when it lowers the residual. The damping starts at nothing,
-// for roots that are merely close, and grows until a step helps: near a singular point the patch hardly moves along one
-// direction, and an undamped step would run away along it.
+// The direction in the plane of the two residuals along which the patch moves most: the greater eigenvector of J J^T.
+dvec2 strong_direction(const FirstOrder<dvec2>& s) {
+  const double xx = s.du.x * s.du.x + s.dv.x * s.dv.x, yy = s.du.y * s.du.y + s.dv.y * s.dv.y, xy = s.du.x * s.du.y + s.dv.x * s.dv.y;
+  const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
+  const dvec2 c = split > 0.0 ? dvec2(split + root, xy) : dvec2(xy, root - split);
+  const double length = glm::length(c);
+  return length > 0.0 ? c / length : dvec2(1.0, 0.0);
+}
+
+// Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch hardly moves, and
+// curvature throws it off the other equation; so each trial step, shortened until it helps, is followed by a correction of
+// the strong equation alone. Kept only when the residual falls; done when it is below `enough`.
 template <class Shape>
-dvec2 improve(const Net& net, const LocalRay& ray, dvec2 p) {
+dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
   p = Shape::clamp(p);
   dvec2 f = extended_residual(net, ray, p);
-  for (int k = 0; k < 12; ++k) {
+  for (int k = 0; k < 16 && size_of(f) > enough; ++k) {
     const FirstOrder<dvec2> s = projected(net, ray, p);
-    const double aa = glm::dot(s.du, s.du), ab = glm::dot(s.du, s.dv), bb = glm::dot(s.dv, s.dv);
-    const dvec2 right(glm::dot(s.du, f), glm::dot(s.dv, f));
+    const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
+    const dvec2 full = det != 0.0 ? dvec2(s.dv.y * f.x - s.dv.x * f.y, s.du.x * f.y - s.du.y * f.x) / det : dvec2(0.0);
+    const double length = size_of(full);
     bool better = false;
-    for (double damping = 1e-28 * (aa + bb); !better && damping < aa + bb; damping *= 1e4) {
-      const double det = (aa + damping) * (bb + damping) - ab * ab;
-      const dvec2 step = dvec2((bb + damping) * right.x - ab * right.y, (aa + damping) * right.y - ab * right.x) / det;
-      if (!(size_of(step) < 1.0)) continue;
-      const dvec2 q = Shape::clamp(p - step), next = extended_residual(net, ray, q);
+    // The last trial is the correction alone.
+    for (double part = std::fmin(1.0, 0.5 / length); !better; part *= 0.25) {
+      if (!(part * length > 1e-14)) part = 0.0;
+      dvec2 q = Shape::clamp(p - part * full);
+      const FirstOrder<dvec2> at = projected(net, ray, q);
+      const dvec2 strong = strong_direction(at), slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
+      const double steepness = glm::dot(slope, slope);
+      if (steepness > 0.0) q = Shape::clamp(q - slope * (glm::dot(strong, extended_residual(net, ray, q)) / steepness));
+      const dvec2 next = extended_residual(net, ray, q);
       better = glm::dot(next, next) < glm::dot(f, f);
       if (better) p = q, f = next;
+      if (part == 0.0) break;
     }
     if (!better) break;
   }
@@ -86,7 +101,7 @@ dvec2 improve(const Net& net, const LocalRay& ray, dvec2 p) {
 template <class Shape>
 bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
   dvec2 p(root.u, root.v);
-  if (root.tangent) p = improve<Shape>(net, ray, p);
+  if (root.tangent) p = improve<Shape>(net, 0.25 * bound, ray, p);
   if (const double beyond = Shape::outside(p); beyond > 0.0) {
     if (!(beyond < reach)) return false;
     const dvec2 along = Shape::boundary_direction(p);
