@@ -10,19 +10,9 @@ namespace {
 
 EllipsoidHit make_hit(const Ellipsoid& e, dvec3 on_sphere) {
   on_sphere /= glm::length(on_sphere);
-  EllipsoidHit hit;
-  if (e.uniform_radius > 0.0) {
-    hit.normal = on_sphere;  // the sphere was not turned, so that its parameters are in the surface's own axes
-    hit.point = e.uniform_radius * on_sphere;
-    on_sphere = glm::normalize(e.inverse * hit.point);
-  } else {
-    hit.point = e.linear * on_sphere;
-    hit.normal = glm::normalize(on_sphere * e.inverse);  // row vector times inverse: the inverse transpose
-  }
-  const double turn = std::atan2(on_sphere.y, on_sphere.x) / (2.0 * std::numbers::pi);
-  hit.u = turn < 0.0 ? turn + 1.0 : turn;
-  hit.v = std::atan2(std::hypot(on_sphere.x, on_sphere.y), on_sphere.z) / std::numbers::pi;
-  return hit;
+  // Of a sphere the normal is exact in the surface's own axes: a rotation would only round it again.
+  if (e.uniform_radius > 0.0) return {e.uniform_radius * on_sphere, on_sphere};
+  return {e.linear * on_sphere, glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
 }
 
 }  // namespace
@@ -35,6 +25,12 @@ Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(glm::inverse(map))
                                 std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
                                           std::fabs(glm::dot(map[2], map[0]))) / r);
   if (skew <= 8.0 * unit_roundoff * r) uniform_radius = extent = r;
+}
+
+dvec2 ellipsoid_parameters(const Ellipsoid& surface, const dvec3& point) noexcept {
+  const dvec3 p = surface.inverse * point;
+  const double turn = std::atan2(p.y, p.x) / (2.0 * std::numbers::pi);
+  return {turn < 0.0 ? turn + 1.0 : turn, std::atan2(std::hypot(p.x, p.y), p.z) / std::numbers::pi};
 }
 
 int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept {

@@ -18,11 +18,13 @@ struct Ellipsoid {
 struct EllipsoidHit {
   dvec3 point;   // in the surface's frame
   dvec3 normal;  // unit, outward
-  double u, v;   // longitude / 2 pi from +x towards +y, and colatitude / pi from +z, both of the unit sphere
 };
 
 // Number of roots (0 or 2), entering first. Roots coincide for a tangential ray.
 int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept;
+
+// Longitude / 2 pi from +x towards +y, and colatitude / pi from +z, of the point's pre-image on the unit sphere.
+dvec2 ellipsoid_parameters(const Ellipsoid& surface, const dvec3& point) noexcept;
 
 // Bound on the distance of a computed hit from the exact one, at right angles to the ray.
 inline double ellipsoid_error(const Ellipsoid& e) { return 8.0 * unit_roundoff * e.extent; }

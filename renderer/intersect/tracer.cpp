@@ -88,7 +88,7 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     for (int k = 0; k < count; ++k) {
       const double error = ellipsoid_error(*compiled.ellipsoid);
       const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
-      if (take(q, surface, 0, {hits[k].u, hits[k].v}, hits[k].point, hits[k].normal, c, far)) return true;
+      if (take(q, surface, 0, dvec2(0.0), hits[k].point, hits[k].normal, c, far)) return true;
     }
     return false;
   }
@@ -140,6 +140,17 @@ struct Tracer::Implementation {
     q.far_origin = (global.slide + near) * global.scale;
     q.far_scale = global.scale;
     return true;
+  }
+
+  // What only a hit that is reported needs: the limit normal of a patch, the parameters of an analytic surface.
+  void finish(Hit& hit) const {
+    const auto k = static_cast<std::size_t>(hit.surface);
+    if (const auto& ellipsoid = compiled[k].ellipsoid) {
+      const dvec2 p = ellipsoid_parameters(*ellipsoid, hit.point - compiled[k].frame);
+      hit.u = p.x, hit.v = p.y;
+    } else {
+      hit.normal = unit_normal(surfaces[k].surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
+    }
   }
 
   Query make_query(const Ray& ray, Mode mode) const {
@@ -222,10 +233,7 @@ Hit Tracer::closest(const Ray& ray) const noexcept {
   double far;
   if (!implementation_->enter(ray, q, origin, direction, far)) return {};
   implementation_->embree->visit_all(origin, direction, far, &q);
-  if (q.best && implementation_->compiled[static_cast<std::size_t>(q.best.surface)].set.leaves.size() > 0) {
-    const Surface& surface = implementation_->surfaces[static_cast<std::size_t>(q.best.surface)].surface;
-    q.best.normal = unit_normal(surface.patches[static_cast<std::size_t>(q.best.patch)], q.best.u, q.best.v);
-  }
+  if (q.best) implementation_->finish(q.best);
   return q.best;
 }
 
@@ -264,10 +272,7 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out.push_back(hits[k]);
     out_signs.push_back(signs[k]);
   }
-  for (Hit& hit : out) {
-    const Surface& surface = implementation_->surfaces[static_cast<std::size_t>(hit.surface)].surface;
-    if (!surface.ellipsoid) hit.normal = unit_normal(surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
-  }
+  for (Hit& hit : out) implementation_->finish(hit);
   return out;
 }
 

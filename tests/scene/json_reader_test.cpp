@@ -145,7 +145,7 @@ TEST_CASE("messages show the line and a caret", "[scene]") {
         "  2 |  \"\u00e9\u20ac\": nul\n"
         "    |        ^");
   CHECK(complaint("[\"\x1b[31m\"]").find('\x1b') == std::string::npos);
-  const std::string far = complaint("[" + std::string(5000, ' ') + "nul" + std::string(5000, ' ') + "]");
+  const std::string far = complaint(fmt::format("[{0:5000}nul{0:5000}]", ""));
   const std::string excerpt = far.substr(far.find('\n') + 1);
   const std::size_t line_end = excerpt.find('\n');
   CHECK(excerpt.size() < 250);
@@ -154,10 +154,10 @@ TEST_CASE("messages show the line and a caret", "[scene]") {
 
 TEST_CASE("files that cannot be read say why", "[scene]") {
   const std::string folder = fresh_folder("json_reader");
-  CHECK(message_of([&] { read_json_file(folder); }) == "cannot read " + folder + ": it is a folder");
+  CHECK(message_of([&] { read_json_file(folder); }) == fmt::format("cannot read {}: it is a folder", folder));
   const std::string missing = folder + "/missing.json";
   CHECK(message_of([&] { read_json_file(missing); }) ==
-        "cannot read " + missing + ": No such file or directory");
+        fmt::format("cannot read {}: No such file or directory", missing));
   const std::string empty = folder + "/empty.json";
   write_text_file(empty, "");
   CHECK(first_line(message_of([&] { read_json_file(empty); })) ==
@@ -169,7 +169,7 @@ TEST_CASE("a file beyond the limit is refused", "[scene]") {
   write_text_file(file, std::string(100, ' '));
   CHECK(read_text_file(file, 100).size() == 100);
   CHECK(message_of([&] { read_text_file(file, 99); }) ==
-        "cannot read " + file + ": it is larger than 99 bytes");
+        fmt::format("cannot read {}: it is larger than 99 bytes", file));
   // A device has no size to ask for beforehand, and this one never ends.
   CHECK(message_of([&] { read_text_file("/dev/zero", 1000); }) ==
         "cannot read /dev/zero: it is larger than 1000 bytes");
