@@ -19,8 +19,8 @@ struct ProcessOptions {
   std::string input;                               // standard input
 };
 
-// `arguments[0]` is the program, searched in PATH when it has no slash. Throws std::runtime_error when it cannot
-// be started. Nothing passes through a shell.
+// `arguments[0]` is the program, searched in PATH when it has no slash. Throws std::runtime_error when it
+// cannot be started. Nothing passes through a shell.
 ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
 
 // The built `rondure` with these arguments.

@@ -1,7 +1,7 @@
 // The string that a plugin and its host must agree on before either calls the other.
 //
-// It is made at compile time, so that it always tells of the code that holds it: an ordinary inline function would
-// be merged with the host's copy when the plugin is loaded, and every plugin would match.
+// It is made at compile time, so that it always tells of the code that holds it: an ordinary inline function
+// would be merged with the host's copy when the plugin is loaded, and every plugin would match.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,8 @@ struct AbiString {
   }
 };
 
-// "rondure 0.1.0 abi 1 gcc 12 libstdc++ cxx11 address-sanitizer Net:64/8 ...": the last part lists size/alignment.
+// "rondure 0.1.0 abi 1 gcc 12 libstdc++ cxx11 address-sanitizer Net:64/8 ...": the last part lists
+// size/alignment.
 consteval AbiString abi_string() {
   AbiString abi;
   abi.add("rondure ").add(version).add(" abi ").add(std::size_t{abi_number});

@@ -50,7 +50,8 @@ void load_file(const std::string& path, Registry& registry) {
   const char* reported = abi();
   const std::string_view found = reported ? reported : "";
   if (found != host_abi.text)
-    throw std::runtime_error("plugin " + path + ": it was built for another Rondure; rebuild it against this one\n" +
+    throw std::runtime_error("plugin " + path +
+                             ": it was built for another Rondure; rebuild it against this one\n" +
                              "  this program: " + host_abi.text + "\n  the plugin:   " + std::string(found));
 
   Registry extended = registry;  // so that a plugin that fails half-way leaves nothing behind

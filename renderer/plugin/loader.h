@@ -1,8 +1,9 @@
 // Families and integrators from shared objects.
 //
 // A plugin has two C entry points: `const char* rondure_plugin_abi()` and
-// `void rondure_plugin_register(rondure::Registry*)`. The first is called before anything else, and a plugin whose
-// answer differs from the host's is refused. A plugin is never unloaded: what it registered lives in it.
+// `void rondure_plugin_register(rondure::Registry*)`. The first is called before anything else, and a plugin
+// whose answer differs from the host's is refused. A plugin is never unloaded: what it registered lives in
+// it.
 #pragma once
 
 #include <string>
@@ -16,9 +17,9 @@ namespace rondure {
 // names the file, `registry` is as it was before that file.
 void load_plugin(const std::string& path, Registry& registry);
 
-// Loads `paths` (from --plugin), then the entries of RONDURE_PLUGIN_PATH (files or folders, separated by colons),
-// then the install's plugin folder if there is one. As with PATH, a file in a later place is skipped when one of the
-// same name came from an earlier place.
+// Loads `paths` (from --plugin), then the entries of RONDURE_PLUGIN_PATH (files or folders, separated by
+// colons), then the install's plugin folder if there is one. As with PATH, a file in a later place is skipped
+// when one of the same name came from an earlier place.
 void load_plugins(const std::vector<std::string>& paths, Registry& registry);
 
 // rondure/plugins beside the core library, wherever that is installed.

@@ -9,7 +9,8 @@ namespace {
 template <class Map, class Item>
 void add_to(Map& map, Item item, bool callable, const char* kind) {
   if (item.name.empty()) throw std::runtime_error(std::string("a ") + kind + " without a name");
-  if (!callable) throw std::runtime_error(std::string("the ") + kind + " \"" + item.name + "\" has no factory");
+  if (!callable)
+    throw std::runtime_error(std::string("the ") + kind + " \"" + item.name + "\" has no factory");
   const std::string name = item.name;
   if (!map.try_emplace(name, std::move(item)).second)
     throw std::runtime_error(std::string("the name \"") + name + "\" is taken by another " + kind);
@@ -41,7 +42,9 @@ void Registry::add(IntegratorFactory factory) {
 }
 
 const SurfaceFamily* Registry::family(std::string_view name) const { return find_in(families_, name); }
-const IntegratorFactory* Registry::integrator(std::string_view name) const { return find_in(integrators_, name); }
+const IntegratorFactory* Registry::integrator(std::string_view name) const {
+  return find_in(integrators_, name);
+}
 std::vector<std::string> Registry::family_names() const { return names_of(families_); }
 std::vector<std::string> Registry::integrator_names() const { return names_of(integrators_); }
 

@@ -6,6 +6,7 @@
 #include "renderer/plugin/builtin.h"
 #include "renderer/scene/scene_docs.h"
 #include "tests/catch.h"
+#include "tests/commands/command_files.h"
 #include "tests/paths.h"
 #include "tests/process.h"
 
@@ -46,14 +47,32 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{"describe", "sphre"}, "unknown type \"sphre\"; did you mean \"sphere\"?"},
       {{"validate", "missing.json"}, "cannot read missing.json: No such file or directory"},
       {{"validate", "."}, "cannot read .: it is a folder"},
+      {{"--plugin"}, "--plugin: 1 required PATH missing; see rondure --help"},
+      {{"describe"}, "type is required; see rondure describe --help"},
+      {{"trace", "scene.json"}, "--rays is required; see rondure trace --help"},
+      {{"eval", "scene.json"}, "--at is required; see rondure eval --help"},
+      {{"render", "scene.json", "--resolution", "4"},
+       "--resolution: takes WIDTHxHEIGHT, such as 640x480, found \"4\"; see rondure render --help"},
+      {{"render", "scene.json", "--crop", "1,2,3"}, "--crop wants x0,y0,x1,y1, four integers, not \"1,2,3\""},
+      {{"render", "scene.json", "--resolution", "4x4", "--crop", "1,1,9,9"},
+       "the crop 1,1,9,9 must be a window of 0,0,4,4: x0,y0 within, x1,y1 just beyond"},
+      {{"render", "scene.json", "--spp", "0"}, "--spp must be in [1, 1073741824], not 0"},
+      {{"render", "scene.json", "-o", "nowhere/out.exr"}, "nowhere/out.exr: cannot write: No such file or directory"},
+      {{"render", "scene.json", "--integrator", "paht"},
+       "scene.json: integrator: unknown integrator \"paht\"; did you mean \"path\"? (set on the command line)"},
+      {{"info", "scene.json", "--solver", "bisection"},
+       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"bisection\" (set on the "
+       "command line)"},
       {{"list", "--plugin", "missing.so"}, "plugin missing.so: there is no such file or folder"},
   };
   for (const Row& row : table) {
-    const ProcessResult result = run_in(fresh_folder("command_line"), row.arguments);
+    const std::string folder = folder_with("command_line", ball);
+    const ProcessResult result = run_in(folder, row.arguments);
     CAPTURE(row.message);
     CHECK(result.err == "rondure: error: " + row.message + "\n");
     CHECK(result.out.empty());
     CHECK(result.exit_code == 1);
+    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});  // nothing was left behind
   }
 }
 

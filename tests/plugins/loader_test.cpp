@@ -25,13 +25,15 @@ std::string message_of(const std::string& path) {
 
 TEST_CASE("a file that is no plugin is refused by name and reason", "[plugin]") {
   const std::string folder = fresh_folder("loader");
-  write_text_file(folder + "/text.so", "this is no shared object, only a text of some length, to be read as one");
+  write_text_file(folder + "/text.so",
+                  "this is no shared object, only a text of some length, to be read as one");
   write_text_file(folder + "/empty.so", "");
   CHECK(message_of(folder + "/nowhere.so") ==
         "plugin " + folder + "/nowhere.so: there is no such file or folder");
   CHECK(message_of(folder + "/text.so") ==
         "plugin " + folder + "/text.so: it cannot be loaded: invalid ELF header");
-  CHECK(message_of(folder + "/empty.so") == "plugin " + folder + "/empty.so: it cannot be loaded: file too short");
+  CHECK(message_of(folder + "/empty.so") ==
+        "plugin " + folder + "/empty.so: it cannot be loaded: file too short");
   // A folder stands for its *.so, in order of name: the empty one comes first.
   CHECK(message_of(folder) == "plugin " + folder + "/empty.so: it cannot be loaded: file too short");
 }
@@ -43,7 +45,8 @@ TEST_CASE("a folder without shared objects holds no plugins", "[plugin]") {
 }
 
 TEST_CASE("the plugin folder lies beside the core library", "[plugin]") {
-  CHECK(installed_plugin_folder() == std::filesystem::canonical(build_folder()).string() + "/lib/rondure/plugins");
+  CHECK(installed_plugin_folder() ==
+        std::filesystem::canonical(build_folder()).string() + "/lib/rondure/plugins");
 }
 
 }  // namespace rondure

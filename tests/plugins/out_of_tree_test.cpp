@@ -1,7 +1,8 @@
-// A third party's project, built against the installed package and loaded into this process and into the installed
-// program. Everything is made under the build tree.
+// A third party's project, built against the installed package and loaded into this process and into the
+// installed program. Everything is made under the build tree.
 #include <ImfArray.h>
 #include <ImfRgbaFile.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -29,8 +30,8 @@ void require_success(const std::vector<std::string>& arguments) {
 ThirdParty install_and_build() {
   const ThirdParty made{fresh_folder("third_party/prefix"), fresh_folder("third_party/build")};
   require_success({cmake_path(), "--install", build_folder(), "--prefix", made.prefix});
-  require_success({cmake_path(), "-S", source_folder() + "/tests/plugins/project", "-B", made.plugins, "-G", "Ninja",
-                   "-DCMAKE_PREFIX_PATH=" + made.prefix, "-DCMAKE_BUILD_TYPE=Debug"});
+  require_success({cmake_path(), "-S", source_folder() + "/tests/plugins/project", "-B", made.plugins, "-G",
+                   "Ninja", "-DCMAKE_PREFIX_PATH=" + made.prefix, "-DCMAKE_BUILD_TYPE=Debug"});
   require_success({cmake_path(), "--build", made.plugins});
   return made;
 }
@@ -51,7 +52,8 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
 void check_loading(const ThirdParty& made) {
   Registry registry;
   register_builtins(registry);
-  const std::vector<std::string> families = registry.family_names(), integrators = registry.integrator_names();
+  const std::vector<std::string> families = registry.family_names(),
+                                 integrators = registry.integrator_names();
   const auto path_of = [&](const std::string& name) { return made.plugins + "/" + name + ".so"; };
   const auto refusal = [&](const std::string& name) { return message_of(path_of(name), registry); };
   const auto about = [&](const std::string& name) { return "plugin " + path_of(name) + ": "; };
@@ -60,9 +62,10 @@ void check_loading(const ThirdParty& made) {
   CHECK(refusal("wrong_abi") == about("wrong_abi") +
                                     "it was built for another Rondure; rebuild it against this one\n" +
                                     "  this program: " + abi.text + "\n  the plugin:   rondure 0.0.1 abi 0");
-  CHECK(refusal("no_entry") == about("no_entry") +
-                                   "it has no entry point rondure_plugin_abi; build it with rondure_add_plugin of "
-                                   "Rondure's CMake package");
+  CHECK(refusal("no_entry") ==
+        about("no_entry") +
+            "it has no entry point rondure_plugin_abi; build it with rondure_add_plugin of "
+            "Rondure's CMake package");
   CHECK(refusal("throws") == about("throws") + "registration failed: no licence for spheres");
   CHECK(refusal("throws_number") ==
         about("throws_number") + "registration failed with an exception of unknown type");
@@ -91,7 +94,8 @@ void check_search_order(const ThirdParty& made) {
   };
   CHECK_FALSE(shows(run_process({program, "list"}), "paraboloid"));
   CHECK(shows(run_process({program, "list", "--plugin", made.plugins + "/paraboloid.so"}), "paraboloid"));
-  const ProcessOptions variable{"", {{"RONDURE_PLUGIN_PATH", made.plugins + "/pair.so:" + made.plugins + "/silhouette.so"}}, ""};
+  const ProcessOptions variable{
+      "", {{"RONDURE_PLUGIN_PATH", made.plugins + "/pair.so:" + made.plugins + "/silhouette.so"}}, ""};
   const ProcessResult from_variable = run_process({program, "list"}, variable);
   CHECK(shows(from_variable, "left"));
   CHECK(shows(from_variable, "silhouette"));
@@ -120,7 +124,8 @@ void check_scene(const ThirdParty& made) {
   const ProcessOptions in{folder, {{"RONDURE_PLUGIN_PATH", made.plugins + "/paraboloid.so"}}, ""};
   const std::string silhouette = made.plugins + "/silhouette.so";
 
-  // z = 0.5 (0.25^2 + 0.5^2) = 0.15625, so t = 1.84375: every number here has few bits, so that the hit is exact.
+  // z = 0.5 (0.25^2 + 0.5^2) = 0.15625, so t = 1.84375: every number here has few bits, so that the hit is
+  // exact.
   const ProcessResult traced =
       run_process({program, "trace", "scene.json", "--rays", "rays.csv", "--plugin", silhouette}, in);
   INFO(traced.out << traced.err);

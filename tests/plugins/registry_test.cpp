@@ -30,8 +30,10 @@ TEST_CASE("a registry refuses a taken name, an empty name and a missing factory"
   Registry registry;
   registry.add(family_named("torus"));
   registry.add(integrator_named("path"));
-  CHECK_THROWS_WITH(registry.add(family_named("torus")), "the name \"torus\" is taken by another surface family");
-  CHECK_THROWS_WITH(registry.add(integrator_named("path")), "the name \"path\" is taken by another integrator");
+  CHECK_THROWS_WITH(registry.add(family_named("torus")),
+                    "the name \"torus\" is taken by another surface family");
+  CHECK_THROWS_WITH(registry.add(integrator_named("path")),
+                    "the name \"path\" is taken by another integrator");
   CHECK_THROWS_WITH(registry.add(family_named("")), "a surface family without a name");
   CHECK_THROWS_WITH(registry.add(SurfaceFamily{"cone", "", {}, nullptr}),
                     "the surface family \"cone\" has no factory");
