@@ -163,7 +163,7 @@ struct Tracer::Implementation {
 namespace {
 
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
-constexpr double leaf_budget = 0x1p22;
+constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
 
 CompiledSurface compile(const Surface& surface, int max_depth) {
