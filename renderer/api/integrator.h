@@ -17,8 +17,8 @@ namespace rondure {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  // Radiance (linear RGB) arriving along `ray`. `first` is the ray's closest hit, already found by the renderer for
-  // the feature layers (it converts to false on a miss). Must depend on its arguments alone.
+  // Radiance (linear RGB) arriving along `ray`. `first` is the ray's closest hit, already found by the
+  // renderer for the feature layers (it converts to false on a miss). Must depend on its arguments alone.
   virtual dvec3 radiance(const World& world, const Ray& ray, const Hit& first, Sampler& sampler) const = 0;
 };
 

@@ -1,8 +1,8 @@
 // Control nets: the only form in which a surface reaches the renderer.
 //
-// A control point is homogeneous, (w x, w y, w z, w), w last. Parameters run over [0, 1]^2 on a tensor-product
-// patch and over u, v >= 0, u + v <= 1 on a triangular one, where (u, v, 1 - u - v) are barycentric.
-// The normal d/du x d/dv points outward on closed surfaces.
+// A control point is homogeneous, (w x, w y, w z, w), w last. Parameters run over [0, 1]^2 on a
+// tensor-product patch and over u, v >= 0, u + v <= 1 on a triangular one, where (u, v, 1 - u - v) are
+// barycentric. The normal d/du x d/dv points outward on closed surfaces.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The families and integrators that a scene can name. The host owns one Registry and hands it to every plugin;
-// nothing registers itself.
+// The families and integrators that a scene can name. The host owns one Registry and hands it to every
+// plugin; nothing registers itself.
 #pragma once
 
 #include <map>

@@ -11,13 +11,13 @@
 
 namespace rondure {
 
-// One surface in its own frame. Families build about the origin at unit size; the scene applies radius, centre
-// and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
+// One surface in its own frame. Families build about the origin at unit size; the scene applies radius,
+// centre and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
 struct Surface {
   std::vector<Net> patches;
-  dvec3 origin{0.0};                // world position of the frame's zero
-  std::optional<dmat3> ellipsoid;   // set, and `patches` empty: the analytic image of the unit sphere under it
-  bool closed = false;              // bounds a solid: every line meets it an even number of times
+  dvec3 origin{0.0};               // world position of the frame's zero
+  std::optional<dmat3> ellipsoid;  // set, and `patches` empty: the analytic image of the unit sphere under it
+  bool closed = false;             // bounds a solid: every line meets it an even number of times
 };
 
 // One documented parameter, for `rondure describe`. `type` is prose such as "number in (-1, 1)".

@@ -1,11 +1,11 @@
 #include "renderer/commands/csv.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <iostream>
 #include <stdexcept>
 
@@ -41,23 +41,29 @@ bool read_line(std::istream& in, std::string& line) {
 std::string printable(std::string_view text) {
   std::string out(text.substr(0, 120));
   for (char& c : out)
-    if (c == '\t' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = c == '\t' ? ' ' : '?';
+    if (c == '\t' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
+      c = c == '\t' ? ' ' : '?';
   return out;
 }
 
 }  // namespace
 
 CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns, std::size_t required)
-    : name_(path == "-" ? "standard input" : path), columns_(std::move(columns)), required_(required), in_(&std::cin) {
+    : name_(path == "-" ? "standard input" : path),
+      columns_(std::move(columns)),
+      required_(required),
+      in_(&std::cin) {
   if (path == "-") return;
-  if (std::filesystem::is_directory(path)) throw std::runtime_error(fmt::format("{}: is a folder, not a file", path));
+  if (std::filesystem::is_directory(path))
+    throw std::runtime_error(fmt::format("{}: is a folder, not a file", path));
   file_.open(path, std::ios::binary);
   if (!file_) throw std::runtime_error(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
   in_ = &file_;
 }
 
 void CsvReader::fail_at(std::size_t byte, const std::string& message) const {
-  const std::string caret = byte < 120 ? "\n    " + printable(line_) + "\n    " + std::string(byte, ' ') + "^" : "";
+  const std::string caret =
+      byte < 120 ? "\n    " + printable(line_) + "\n    " + std::string(byte, ' ') + "^" : "";
   throw std::runtime_error(fmt::format("{}:{}:{}: {}{}", name_, line_number_, byte + 1, message, caret));
 }
 
@@ -78,7 +84,8 @@ bool CsvReader::is_header() const {
 bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
   for (;;) {
     if (!read_line(*in_, line_)) {
-      if (in_->bad()) throw std::runtime_error(fmt::format("{}: reading failed after line {}", name_, line_number_));
+      if (in_->bad())
+        throw std::runtime_error(fmt::format("{}: reading failed after line {}", name_, line_number_));
       return false;
     }
     ++line_number_;
@@ -100,19 +107,25 @@ bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
     const std::size_t lead = raw.find_first_not_of(blanks);
     std::string_view field = trimmed(raw);
     starts_.push_back(at + (lead == std::string_view::npos ? 0 : lead));
-    if (present == columns_.size()) fail(present, fmt::format("expected {} columns at most ({})", columns_.size(), fmt::join(columns_, ",")));
+    if (present == columns_.size())
+      fail(present,
+           fmt::format("expected {} columns at most ({})", columns_.size(), fmt::join(columns_, ",")));
     if (field.starts_with('+')) field.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     const bool whole = !field.empty() && end == field.data() + field.size();
-    if (whole && error == std::errc::result_out_of_range) fail(present, fmt::format("\"{}\" is out of a double's range", columns_[present]));
+    if (whole && error == std::errc::result_out_of_range)
+      fail(present, fmt::format("\"{}\" is out of a double's range", columns_[present]));
     if (!whole || error != std::errc() || std::isnan(value))
-      fail(present, fmt::format("\"{}\" must be a number, found \"{}\"", columns_[present], printable(field)));
+      fail(present,
+           fmt::format("\"{}\" must be a number, found \"{}\"", columns_[present], printable(field)));
     row[present++] = value;
     if (comma == line_.size()) break;
     at = comma + 1;
   }
-  if (present < required_) fail(present, fmt::format("expected {} columns ({}), found {}", required_, fmt::join(columns_, ","), present));
+  if (present < required_)
+    fail(present,
+         fmt::format("expected {} columns ({}), found {}", required_, fmt::join(columns_, ","), present));
   return true;
 }
 
@@ -127,7 +140,8 @@ TextOutput::TextOutput(const std::string& path) : path_(path), out_(&std::cout) 
 TextOutput::~TextOutput() = default;
 
 void TextOutput::check() {
-  if (!*out_) throw std::runtime_error(fmt::format("{}: writing failed", path_ == "-" ? "standard output" : path_));
+  if (!*out_)
+    throw std::runtime_error(fmt::format("{}: writing failed", path_ == "-" ? "standard output" : path_));
 }
 
 void TextOutput::write(const std::string& text) {

@@ -10,8 +10,8 @@
 
 namespace rondure {
 
-// Rows of numbers. A first line of column names is optional, but must be `columns` if it is there; blank lines are
-// skipped. Errors are std::runtime_errors with file, line, column, the line and a caret.
+// Rows of numbers. A first line of column names is optional, but must be `columns` if it is there; blank
+// lines are skipped. Errors are std::runtime_errors with file, line, column, the line and a caret.
 class CsvReader {
  public:
   // `path`: a file, or "-" for standard input. Rows have all `columns`, or the first `required` of them.

@@ -24,28 +24,34 @@ struct EvalOptions {
 };
 
 // The number in `column` as an index below `count`.
-std::size_t read_index(const CsvReader& reader, const std::vector<double>& row, std::size_t column, std::size_t count, const char* what) {
+std::size_t read_index(const CsvReader& reader, const std::vector<double>& row, std::size_t column,
+                       std::size_t count, const char* what) {
   const double x = row[column];
   if (!(x >= 0.0) || !(x < static_cast<double>(count)) || x != std::floor(x))
-    reader.fail(column, fmt::format("there is no {} {:g}: expected an index from 0 to {}", what, x, count - 1));
+    reader.fail(column,
+                fmt::format("there is no {} {:g}: expected an index from 0 to {}", what, x, count - 1));
   return static_cast<std::size_t>(x);
 }
 
-void append(std::string& out, const dvec3& p) { fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z); }
+void append(std::string& out, const dvec3& p) {
+  fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z);
+}
 
 void eval(const Registry& registry, const EvalOptions& options) {
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
   CsvReader reader(options.at, {"surface", "patch", "u", "v"}, 4);
   TextOutput output(options.output);
   output.write(
-      "surface,patch,u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv,nx,ny,nz,gaussian,mean\n");
+      "surface,patch,u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv,nx,ny,nz,gaussian,"
+      "mean\n");
   std::vector<double> row;
   std::size_t present = 0;
   while (reader.next(row, present)) {
     const std::size_t object = read_index(reader, row, 0, scene.objects.size(), "surface");
     const Surface& surface = scene.objects[object].traced.surface;
     if (surface.patches.empty())
-      reader.fail(0, fmt::format("surface {} ({}) is analytic: it has no patches to evaluate", object, scene.objects[object].type));
+      reader.fail(0, fmt::format("surface {} ({}) is analytic: it has no patches to evaluate", object,
+                                 scene.objects[object].type));
     const std::size_t patch = read_index(reader, row, 1, surface.patches.size(), "patch");
     const Net& net = surface.patches[patch];
     const double u = row[2], v = row[3];

@@ -28,7 +28,8 @@ struct InfoOptions {
 };
 
 std::string kind_of(const Net& net) {
-  if (const auto* tensor = std::get_if<TensorNet>(&net)) return fmt::format("tensor ({}, {})", tensor->m, tensor->n);
+  if (const auto* tensor = std::get_if<TensorNet>(&net))
+    return fmt::format("tensor ({}, {})", tensor->m, tensor->n);
   return fmt::format("triangle {}", std::get<TriangleNet>(net).n);
 }
 
@@ -45,7 +46,9 @@ Json describe_object(const SceneObject& object) {
     for (const dvec4& p : points_of(net)) low = std::fmin(low, p.w), high = std::fmax(high, p.w);
   }
   Json out = {{"name", object.name}, {"type", object.type}, {"closed", surface.closed}};
-  out["solver"] = surface.ellipsoid ? "closed form" : object.traced.solver == Solver::newton ? "newton" : "clipping";
+  out["solver"] = surface.ellipsoid                        ? "closed form"
+                  : object.traced.solver == Solver::newton ? "newton"
+                                                           : "clipping";
   out["patches"] = surface.patches.size();
   if (surface.ellipsoid) {
     const dmat3& m = *surface.ellipsoid;
@@ -56,30 +59,38 @@ Json describe_object(const SceneObject& object) {
     for (const auto& [kind, count] : kinds) out["degrees"][kind] = count;
     out["weights"] = {low, high};
   }
-  if (!box.empty()) out["bounds"] = {{"low", vector_of(box.low + surface.origin)}, {"high", vector_of(box.high + surface.origin)}};
+  if (!box.empty())
+    out["bounds"] = {{"low", vector_of(box.low + surface.origin)},
+                     {"high", vector_of(box.high + surface.origin)}};
   return out;
 }
 
 std::string as_text(const Json& info) {
   std::string out = fmt::format("{}\n", info["scene"].get<std::string>());
   for (const Json& object : info["objects"]) {
-    out += fmt::format("  {}: {}, {}, solver {}\n", object["name"].get<std::string>(), object["type"].get<std::string>(),
-                       object["closed"].get<bool>() ? "closed" : "open", object["solver"].get<std::string>());
+    out += fmt::format("  {}: {}, {}, solver {}\n", object["name"].get<std::string>(),
+                       object["type"].get<std::string>(), object["closed"].get<bool>() ? "closed" : "open",
+                       object["solver"].get<std::string>());
     if (object.contains("degrees")) {
-      for (const auto& [kind, count] : object["degrees"].items()) out += fmt::format("    {} patches, {}\n", count.get<int>(), kind);
-      out += fmt::format("    weights from {:.6g} to {:.6g}\n", object["weights"][0].get<double>(), object["weights"][1].get<double>());
+      for (const auto& [kind, count] : object["degrees"].items())
+        out += fmt::format("    {} patches, {}\n", count.get<int>(), kind);
+      out += fmt::format("    weights from {:.6g} to {:.6g}\n", object["weights"][0].get<double>(),
+                         object["weights"][1].get<double>());
     }
     if (object.contains("bounds")) {
       const Json &a = object["bounds"]["low"], &b = object["bounds"]["high"];
-      out += fmt::format("    within ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", a[0].get<double>(), a[1].get<double>(),
-                         a[2].get<double>(), b[0].get<double>(), b[1].get<double>(), b[2].get<double>());
+      out += fmt::format("    within ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
+                         a[0].get<double>(), a[1].get<double>(), a[2].get<double>(), b[0].get<double>(),
+                         b[1].get<double>(), b[2].get<double>());
     }
   }
   const Json& total = info["total"];
-  out += fmt::format("  {} objects, {} patches, {} leaves, {:.1f} kB\n", total["objects"].get<std::size_t>(), total["patches"].get<std::size_t>(),
-                     total["leaves"].get<std::size_t>(), total["bytes"].get<double>() / 1e3);
-  return out + fmt::format("  {} materials, {} lights, integrator {}, {} samples a pixel\n", info["materials"].get<std::size_t>(),
-                           info["lights"].get<std::size_t>(), info["integrator"].get<std::string>(), info["spp"].get<int>());
+  out += fmt::format("  {} objects, {} patches, {} leaves, {:.1f} kB\n", total["objects"].get<std::size_t>(),
+                     total["patches"].get<std::size_t>(), total["leaves"].get<std::size_t>(),
+                     total["bytes"].get<double>() / 1e3);
+  return out + fmt::format("  {} materials, {} lights, integrator {}, {} samples a pixel\n",
+                           info["materials"].get<std::size_t>(), info["lights"].get<std::size_t>(),
+                           info["integrator"].get<std::string>(), info["spp"].get<int>());
 }
 
 void print_info(const Registry& registry, const InfoOptions& options) {
@@ -93,17 +104,22 @@ void print_info(const Registry& registry, const InfoOptions& options) {
   info["spp"] = scene.sampling.spp;
   const Tracer tracer = tracer_of(scene);
   const TracerStatistics statistics = tracer.statistics();
-  info["total"] = {{"objects", statistics.surfaces}, {"patches", statistics.patches}, {"leaves", statistics.leaves}, {"bytes", statistics.bytes}};
+  info["total"] = {{"objects", statistics.surfaces},
+                   {"patches", statistics.patches},
+                   {"leaves", statistics.leaves},
+                   {"bytes", statistics.bytes}};
   TextOutput output("-");
   // A path need not be UTF-8; what is not is replaced, since JSON text must be.
-  output.write(options.json ? info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : as_text(info));
+  output.write(options.json ? info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+                            : as_text(info));
   output.finish();
 }
 
 }  // namespace
 
 void add_info(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand("info", "Tell what a scene holds: patches, degrees, weights, bounds, memory");
+  CLI::App* command =
+      program.add_subcommand("info", "Tell what a scene holds: patches, degrees, weights, bounds, memory");
   auto options = std::make_shared<InfoOptions>();
   add_scene_options(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON");

@@ -44,9 +44,10 @@ void append_hit(std::string& out, std::size_t ray, const Hit& hit) {
     fmt::format_to(std::back_inserter(out), "{},0,,,,,,,,,,,\n", ray);
     return;
   }
-  fmt::format_to(std::back_inserter(out), "{},1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g},{:.17g}\n", ray,
-                 hit.t, hit.point.x, hit.point.y, hit.point.z, hit.normal.x, hit.normal.y, hit.normal.z, hit.surface,
-                 hit.patch, hit.u, hit.v);
+  fmt::format_to(std::back_inserter(out),
+                 "{},1,{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{:.17g},{:.17g}\n", ray,
+                 hit.t, hit.point.x, hit.point.y, hit.point.z, hit.normal.x, hit.normal.y, hit.normal.z,
+                 hit.surface, hit.patch, hit.u, hit.v);
 }
 
 void trace(const Registry& registry, const TraceOptions& options) {
@@ -62,7 +63,8 @@ void trace(const Registry& registry, const TraceOptions& options) {
   std::size_t present = 0, first = 0;
   for (bool more = true; more;) {
     rays.clear();
-    while (rays.size() < block && (more = reader.next(row, present))) rays.push_back(read_ray(reader, row, present));
+    while (rays.size() < block && (more = reader.next(row, present)))
+      rays.push_back(read_ray(reader, row, present));
     lines.assign(rays.size(), {});
     tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t k) {
       if (!options.all) return append_hit(lines[k], first + k, tracer.closest(rays[k]));
@@ -82,7 +84,8 @@ void add_trace(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("trace", "Intersect rays from a table with a scene");
   auto options = std::make_shared<TraceOptions>();
   add_scene_options(*command, options->scene);
-  command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")->required();
+  command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")
+      ->required();
   command->add_option("-o,--output", options->output, "Table of hits; - for standard output (the default)");
   command->add_flag("--all", options->all, "Every hit of each ray, in order of t, not the closest alone");
   run_when_chosen(*command, context, [&context, options] { trace(context.registry, *options); });

@@ -7,7 +7,8 @@
 
 namespace rondure {
 
-// Takes the objects' nets. Throws std::runtime_error that names the scene and the object whose net cannot be bounded.
+// Takes the objects' nets. Throws std::runtime_error that names the scene and the object whose net cannot be
+// bounded.
 inline Tracer tracer_of(Scene& scene) {
   std::vector<TracedSurface> surfaces;
   surfaces.reserve(scene.objects.size());

@@ -1,7 +1,8 @@
 // Pieces of a patch's parameter domain, and the Bernstein operations that the searches need on them.
 //
-// A shape knows the degree; a cell is a place in the patch's domain with its own local parameters (a, b): [0, 1]^2 on
-// a rectangle, barycentric (a, b, 1 - a - b) on a triangle. Searches are written once, over either shape.
+// A shape knows the degree; a cell is a place in the patch's domain with its own local parameters (a, b): [0,
+// 1]^2 on a rectangle, barycentric (a, b, 1 - a - b) on a triangle. Searches are written once, over either
+// shape.
 #pragma once
 
 #include <algorithm>
@@ -34,9 +35,13 @@ struct TensorShape {
   static double half_width() { return 0.5; }
 
   template <class T>
-  void derive_a(const T* f, T* out) const { tensor_derivative_u(f, m, n, out); }
+  void derive_a(const T* f, T* out) const {
+    tensor_derivative_u(f, m, n, out);
+  }
   template <class T>
-  void derive_b(const T* f, T* out) const { tensor_derivative_v(f, m, n, out); }
+  void derive_b(const T* f, T* out) const {
+    tensor_derivative_v(f, m, n, out);
+  }
   template <class T>
   FirstOrder<T> first(const T* f, dvec2 p) const {
     if (m == 4 && n == 4) return tensor_first<4, 4>(f, 4, 4, p.x, p.y);
@@ -55,7 +60,8 @@ struct TensorShape {
 
   // Halves the cell across a (or b); `low` and `high` receive the two nets.
   template <class T>
-  void halve(const T* f, const Cell& c, bool across_a, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
+  void halve(const T* f, const Cell& c, bool across_a, T* low, T* high, Cell& low_cell,
+             Cell& high_cell) const {
     low_cell = high_cell = c;
     const int k = across_a ? 0 : 1;
     const double middle = 0.5 * (c.low[k] + c.high[k]);
@@ -92,15 +98,25 @@ struct TriangleShape {
   static double half_width() { return 2.0 / 3.0; }
 
   template <class T>
-  void derive_a(const T* f, T* out) const { triangle_derivative_u(f, n, out); }
+  void derive_a(const T* f, T* out) const {
+    triangle_derivative_u(f, n, out);
+  }
   template <class T>
-  void derive_b(const T* f, T* out) const { triangle_derivative_v(f, n, out); }
+  void derive_b(const T* f, T* out) const {
+    triangle_derivative_v(f, n, out);
+  }
   template <class T>
-  FirstOrder<T> first(const T* f, dvec2 p) const { return triangle_first(f, n, p.x, p.y); }
+  FirstOrder<T> first(const T* f, dvec2 p) const {
+    return triangle_first(f, n, p.x, p.y);
+  }
   template <class T>
-  SecondOrder<T> second(const T* f, dvec2 p) const { return triangle_second(f, n, p.x, p.y); }
+  SecondOrder<T> second(const T* f, dvec2 p) const {
+    return triangle_second(f, n, p.x, p.y);
+  }
   template <class T>
-  void restrict_to(const T* patch, const Cell& c, T* out) const { triangle_restrict(patch, n, c.corner, out); }
+  void restrict_to(const T* patch, const Cell& c, T* out) const {
+    triangle_restrict(patch, n, c.corner, out);
+  }
 
   // Halves the cell's longest edge in the patch's domain: angles stay bounded however deep the search goes.
   template <class T>
@@ -138,7 +154,7 @@ struct TriangleShape {
     return dvec2(x, 1.0 - x);  // their sum is 1 to the last bit
   }
   static dvec2 boundary_direction(dvec2 p) {
-    const bool x = p.x < 0.0, y = p.y < 0.0, z = p.x + p.y > 1.0;
+    const bool x = p.x < 0.0, y = p.y<0.0, z = p.x + p.y> 1.0;
     if (x + y + z > 1) return dvec2(0.0);
     return x ? dvec2(0.0, 1.0) : y ? dvec2(1.0, 0.0) : dvec2(1.0, -1.0);
   }

@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "renderer/intersect/fold.h"
+#include "renderer/intersect/parameter_clip.h"
 
 namespace rondure {
 namespace {
 
-constexpr int depth_limit = 112;             // 53 halvings of each parameter, and a few clips
-constexpr std::size_t cell_limit = 1 << 14;  // a tangential ray takes tens; a net that takes this many is broken
-constexpr double contraction = 0.3;          // below 1/3, full Newton steps converge from anywhere in the cell
+constexpr int depth_limit = 112;  // 53 halvings of each parameter, and a few clips
+constexpr std::size_t cell_limit =
+    1 << 14;                         // a tangential ray takes tens; a net that takes this many is broken
+constexpr double contraction = 0.3;  // below 1/3, full Newton steps converge from anywhere in the cell
 
-constexpr double point_size = 16.0;           // times the rounding error: what is so small is one candidate
+constexpr double point_size = 16.0;  // times the rounding error: what is so small is one candidate
 
 enum class Outcome { finished, divide };
 
@@ -26,19 +28,23 @@ struct Frame {
 
 // Scratch memory that a thread keeps, so that a search allocates nothing once it is warm.
 struct Workspace {
-  std::vector<dvec2> stack, turned, first[2], second[3];
+  std::vector<dvec2> stack, turned, first[2], second;
 };
 
 template <class Shape>
 class Search {
  public:
   Search(const Shape& shape, const dvec2* patch, double error, RootList& roots, SearchCounts& counts)
-      : shape_(shape), size_(static_cast<std::size_t>(shape.size())), patch_(patch), error_(error), roots_(roots), counts_(counts) {
+      : shape_(shape),
+        size_(static_cast<std::size_t>(shape.size())),
+        patch_(patch),
+        error_(error),
+        roots_(roots),
+        counts_(counts) {
     static thread_local Workspace workspace;
     work_ = &workspace;
     work_->stack.resize(size_ * (depth_limit + 3));
-    for (auto* v : {&work_->turned, &work_->first[0], &work_->first[1], &work_->second[0], &work_->second[1], &work_->second[2]})
-      v->resize(size_);
+    for (auto* v : {&work_->turned, &work_->first[0], &work_->first[1], &work_->second}) v->resize(size_);
   }
 
   void run(const typename Shape::Cell& start) {
@@ -80,24 +86,9 @@ class Search {
 
   dvec2* net(int level) { return work_->stack.data() + static_cast<std::size_t>(level) * size_; }
 
-  struct Hull {
-    dvec2 low{1e300}, high{-1e300};
-    void add(dvec2 p) { low = glm::min(low, p), high = glm::max(high, p); }
-    bool avoids_zero(dvec2 band) const {
-      return low.x > band.x || low.y > band.y || high.x < -band.x || high.y < -band.y;
-    }
-    dvec2 magnitude() const { return glm::max(-low, high); }
-  };
-
-  Hull hull(const dvec2* f) const {
-    Hull h;
-    for (std::size_t k = 0; k < size_; ++k) h.add(f[k]);
-    return h;
-  }
-
   Outcome examine(const dvec2* f, const Frame<Shape>& frame) {
     const typename Shape::Cell& cell = frame.cell;
-    const Hull raw = hull(f);
+    const Hull raw = hull_of(f, size_);
     invertible_ = false;
     if (raw.avoids_zero(dvec2(error_))) return Outcome::finished;
     const dvec2 magnitude = raw.magnitude();
@@ -122,20 +113,24 @@ class Search {
   }
 
   dvec2 preconditioned_error() const {
-    return error_ * dvec2(std::fabs(inverse_[0].x) + std::fabs(inverse_[1].x), std::fabs(inverse_[0].y) + std::fabs(inverse_[1].y));
+    return error_ * dvec2(std::fabs(inverse_[0].x) + std::fabs(inverse_[1].x),
+                          std::fabs(inverse_[0].y) + std::fabs(inverse_[1].y));
   }
 
-  // Whether |inverse . J - I| < contraction in the maximum norm, all over the cell, from the Bernstein coefficients of J.
+  // Whether |inverse . J - I| < contraction in the maximum norm, all over the cell, from the Bernstein
+  // coefficients of J.
   bool is_simple(const dvec2* f) {
     dvec2 *da = work_->first[0].data(), *db = work_->first[1].data();
     dvec2 from_a(0.0), from_b(0.0);
     if (shape_.can_derive_a()) {
       shape_.derive_a(f, da);
-      for (int k = 0; k < shape_.derived_a().size(); ++k) from_a = glm::max(from_a, glm::abs(inverse_ * da[k] - dvec2(1.0, 0.0)));
+      for (int k = 0; k < shape_.derived_a().size(); ++k)
+        from_a = glm::max(from_a, glm::abs(inverse_ * da[k] - dvec2(1.0, 0.0)));
     }
     if (shape_.can_derive_b()) {
       shape_.derive_b(f, db);
-      for (int k = 0; k < shape_.derived_b().size(); ++k) from_b = glm::max(from_b, glm::abs(inverse_ * db[k] - dvec2(0.0, 1.0)));
+      for (int k = 0; k < shape_.derived_b().size(); ++k)
+        from_b = glm::max(from_b, glm::abs(inverse_ * db[k] - dvec2(0.0, 1.0)));
     }
     return std::max(from_a.x + from_b.x, from_a.y + from_b.y) < contraction;
   }
@@ -143,7 +138,8 @@ class Search {
   Outcome solve_simple(const dvec2* f, const typename Shape::Cell& cell, dvec2 band) {
     dvec2 p = Shape::center();
     for (int k = 0;; ++k) {
-      // A root of this cell would have been reached: the contraction leaves 10^-16 of the cell after 32 steps at worst.
+      // A root of this cell would have been reached: the contraction leaves 10^-16 of the cell after 32 steps
+      // at worst.
       if (k == 32) return Outcome::finished;
       const FirstOrder<dvec2> s = shape_.first(f, p);
       const dvec2 step = glm::inverse(glm::dmat2(s.du, s.dv)) * s.value;
@@ -152,118 +148,62 @@ class Search {
       if (!(Shape::outside(p) < 1.0)) return Outcome::finished;
       if (std::max(std::fabs(step.x), std::fabs(step.y)) <= std::max(band.x, band.y) + 1e-15) break;
     }
-    if (Shape::outside(p) <= 4.0 * std::max(band.x, band.y) + 8.0 * unit_roundoff) keep(Shape::to_patch(cell, p), false);
+    if (Shape::outside(p) <= 4.0 * std::max(band.x, band.y) + 8.0 * unit_roundoff)
+      keep(Shape::to_patch(cell, p), false);
     return Outcome::finished;
   }
 
   Outcome try_fold(const dvec2* f, const Frame<Shape>& frame, const glm::dmat2& jacobian) {
     const typename Shape::Cell& cell = frame.cell;
-    // Turn the two planes about the ray so that the first polynomial takes all of the gradient that one can take.
+    // Turn the two planes about the ray so that the first polynomial takes all of the gradient that one can
+    // take.
     const dvec2 row0(jacobian[0].x, jacobian[1].x), row1(jacobian[0].y, jacobian[1].y);
-    const double angle = 0.5 * std::atan2(2.0 * glm::dot(row0, row1), glm::dot(row0, row0) - glm::dot(row1, row1));
+    const double angle =
+        0.5 * std::atan2(2.0 * glm::dot(row0, row1), glm::dot(row0, row0) - glm::dot(row1, row1));
     const double c = std::cos(angle), s = std::sin(angle);
     dvec2* t = work_->turned.data();
     for (std::size_t k = 0; k < size_; ++k) t[k] = dvec2(c * f[k].x + s * f[k].y, c * f[k].y - s * f[k].x);
-    const Hull h = hull(t);
+    const Hull h = hull_of(t, size_);
     if (h.avoids_zero(dvec2(error_))) return Outcome::finished;
 
     if (!shape_.can_derive_a() || !shape_.can_derive_b()) return Outcome::divide;
     const dvec2 gradient = c * row0 + s * row1;
     const bool swapped = std::fabs(gradient.x) > std::fabs(gradient.y);
-    dvec2 *da = work_->first[0].data(), *db = work_->first[1].data();
-    shape_.derive_a(t, da);
-    shape_.derive_b(t, db);
-    const int count_a = shape_.derived_a().size(), count_b = shape_.derived_b().size();
-    const auto range = [](const dvec2* net, int count, int component) {
-      Interval r{0.0, 0.0};
-      for (int k = 0; k < count; ++k)
-        r = k == 0 ? Interval{net[0][component], net[0][component]}
-                   : Interval{std::min(r.low, net[k][component]), std::max(r.high, net[k][component])};
-      return r;
-    };
-    Interval x[2], y[2];
-    for (int k = 0; k < 2; ++k) {
-      x[k] = range(da, count_a, k), y[k] = range(db, count_b, k);
-      if (swapped) std::swap(x[k], y[k]);
-    }
-    if (y[0].contains_zero()) return Outcome::divide;
+    const DerivativeNets nets{work_->first[0].data(), work_->first[1].data(), work_->second.data()};
+    const Slopes slopes = slopes_of(shape_, t, swapped, nets);
+    if (slopes.y[0].contains_zero()) return Outcome::divide;
     if (h.magnitude().y <= point_size * error_) {
-      // The ray clings to the surface all along the graph. Over a whole leaf it lies inside: no isolated root.
+      // The ray clings to the surface all along the graph. Over a whole leaf it lies inside: no isolated
+      // root.
       if (frame.depth == 0 && h.magnitude().y <= error_) return Outcome::finished;
-      if (keep_on_graph(t, cell, swapped)) return Outcome::finished;
-      return Outcome::divide;
+      const auto keep_candidate = [&](dvec2 p) { keep(Shape::to_patch(cell, p), true); };
+      const bool any = propose_on_graph(shape_, t, swapped, keep_candidate);
+      return any ? Outcome::finished : Outcome::divide;
     }
 
-    Interval xx[2], xy[2], yy[2];
-    dvec2* second = work_->second[0].data();
-    const auto second_range = [&](bool possible, auto&& derive, int count, Interval* out) {
-      if (!possible) return;
-      derive();
-      for (int k = 0; k < 2; ++k) out[k] = range(second, count, k);
-    };
-    const Shape along_a = shape_.derived_a(), along_b = shape_.derived_b();
-    second_range(along_a.can_derive_a(), [&] { along_a.derive_a(da, second); }, along_a.derived_a().size(), xx);
-    second_range(along_a.can_derive_b(), [&] { along_a.derive_b(da, second); }, along_a.derived_b().size(), xy);
-    second_range(along_b.can_derive_b(), [&] { along_b.derive_b(db, second); }, along_b.derived_b().size(), yy);
-    if (swapped)
-      for (int k = 0; k < 2; ++k) std::swap(xx[k], yy[k]);
-
-    const Interval dy = -(x[0] / y[0]);
-    const auto bend = [&](int k) { return xx[k] + 2.0 * (xy[k] * dy) + yy[k] * (dy * dy); };
-    const Interval ddy = -(bend(0) / y[0]);
-    const Interval curvature = bend(1) + y[1] * ddy;
-    if (curvature.contains_zero() || curvature.magnitude() > 4.0 * curvature.mignitude()) return Outcome::divide;
+    const Interval curvature = curvature_of(shape_, slopes, swapped, nets);
+    if (curvature.contains_zero() || curvature.magnitude() > 4.0 * curvature.mignitude())
+      return Outcome::divide;
 
     const FoldResult fold = solve_fold(shape_, t, swapped, curvature, error_);
     switch (fold.kind) {
-      case FoldResult::Kind::undecided: return Outcome::divide;
-      case FoldResult::Kind::none: return Outcome::finished;
+      case FoldResult::Kind::undecided:
+        return Outcome::divide;
+      case FoldResult::Kind::none:
+        return Outcome::finished;
       case FoldResult::Kind::tangent: {
         if (Shape::outside(fold.at[0]) <= fold.tolerance) keep(Shape::to_patch(cell, fold.at[0]), true);
         return Outcome::finished;
       }
-      case FoldResult::Kind::pair: break;
+      case FoldResult::Kind::pair:
+        break;
     }
     keep_pair(cell, fold);
     return Outcome::finished;
   }
 
-  // Candidates for a cell in which the second polynomial is hardly more than its rounding error: contact of high order, or a
-  // grazing ray at a singular point. Where it changes sign along the graph of the first, else where it is least.
-  bool keep_on_graph(const dvec2* t, const typename Shape::Cell& cell, bool swapped) {
-    const fold_detail::Axes axes{swapped};
-    struct Sample {
-      double x, y, h;
-      bool inside;
-    };
-    const auto sample = [&](double x, double y) {
-      const double h = fold_detail::along_graph(shape_, t, axes, x, y).h;
-      return Sample{x, y, h, Shape::outside(axes.to_cell(x, y)) <= 1e-9};
-    };
-    const auto keep_sample = [&](const Sample& s) { keep(Shape::to_patch(cell, axes.to_cell(s.x, s.y)), true); };
-    constexpr int steps = 16;
-    Sample last = sample(0.0, 0.5), least = last;
-    bool crossed = false;
-    for (int k = 1; k <= steps; ++k) {
-      const Sample next = sample(static_cast<double>(k) / steps, last.y);
-      if (last.inside && next.inside && (last.h < 0.0) != (next.h < 0.0)) {
-        Sample low = last, high = next;
-        for (int j = 0; j < 24; ++j) {
-          const Sample middle = sample(0.5 * (low.x + high.x), 0.5 * (low.y + high.y));
-          ((middle.h < 0.0) == (low.h < 0.0) ? low : high) = middle;
-        }
-        keep_sample(low);
-        crossed = true;
-      }
-      if (next.inside && (!least.inside || std::fabs(next.h) < std::fabs(least.h))) least = next;
-      last = next;
-    }
-    if (!crossed && least.inside) keep_sample(least);
-    return crossed || least.inside;
-  }
-
-  // Roots of a pair that lie within the patch count as they are. If neither does, the nearer may be there by rounding; but
-  // never a root beside its mirror image across a singular corner.
+  // Roots of a pair that lie within the patch count as they are. If neither does, the nearer may be there by
+  // rounding; but never a root beside its mirror image across a singular corner.
   void keep_pair(const typename Shape::Cell& cell, const FoldResult& fold) {
     dvec2 at[2];
     double outside[2];
@@ -283,24 +223,27 @@ class Search {
     if (here[nearer]) keep(at[nearer], fold.narrow);
   }
 
-  // A cell that is a point in space may still be wide in the parameters, at a collapsed edge: a few starts for `settle`, since
-  // which of the edge's parameters leads to the ray is more than rounding can tell here.
+  // A cell that is a point in space may still be wide in the parameters, at a collapsed edge: a few starts
+  // for `settle`, since which of the edge's parameters leads to the ray is more than rounding can tell here.
   void keep_point(const typename Shape::Cell& cell) {
     const dvec2 middle = Shape::center();
     keep(Shape::to_patch(cell, middle), true);
-    for (const dvec2 p : {dvec2(0.125, middle.y), dvec2(0.875, middle.y), dvec2(middle.x, 0.125), dvec2(middle.x, 0.875)}) {
+    for (const dvec2 p :
+         {dvec2(0.125, middle.y), dvec2(0.875, middle.y), dvec2(middle.x, 0.125), dvec2(middle.x, 0.875)}) {
       if (Shape::outside(p) > 0.0) continue;
       const dvec2 far = Shape::to_patch(cell, p) - Shape::to_patch(cell, middle);
       if (std::max(std::fabs(far.x), std::fabs(far.y)) > 1e-3) keep(Shape::to_patch(cell, p), true);
     }
   }
 
-  // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision, and checks it there.
+  // Sharpens a root on the patch's own net, whose coefficients have not been through any subdivision, and
+  // checks it there.
   void keep(dvec2 p, bool tangent) {
     FirstOrder<dvec2> s = shape_.first(patch_, p);
     if (!tangent) {
       const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
-      const dvec2 step = dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
+      const dvec2 step =
+          dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
       if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) {
         p -= step;
         s = shape_.first(patch_, p);
@@ -335,31 +278,6 @@ class Search {
     frames[level + 1] = high;
   }
 
-  // Range of the parameter k over which the hull of the preconditioned polynomial k meets its error band. False: nowhere.
-  bool clip_range(const dvec2* f, int k, double band, double& from, double& to) const {
-    const int m = shape_.m, n = shape_.n, degree = k == 0 ? m : n;
-    double low[max_degree + 1], high[max_degree + 1];
-    for (int i = 0; i <= degree; ++i) low[i] = 1e300, high[i] = -1e300;
-    for (int i = 0; i <= m; ++i)
-      for (int j = 0; j <= n; ++j) {
-        const double g = (inverse_ * f[i * (n + 1) + j])[k];
-        const int at = k == 0 ? i : j;
-        low[at] = std::min(low[at], g), high[at] = std::max(high[at], g);
-      }
-    from = 1.0, to = 0.0;
-    const auto include = [&](double x) { from = std::min(from, x), to = std::max(to, x); };
-    // Where the segments between any two of the points cross y = level: the hull's own crossings are among them.
-    for (int i = 0; i <= degree; ++i) {
-      if (low[i] <= band && high[i] >= -band) include(double(i) / degree);
-      for (int j = i + 1; j <= degree; ++j)
-        for (const double level : {-band, band})
-          for (const double p : {low[i], high[i]})
-            for (const double q : {low[j], high[j]})
-              if ((p - level) * (q - level) < 0.0) include((i + (j - i) * (level - p) / (q - p)) / degree);
-    }
-    return from <= to;
-  }
-
   // Shrinks the cell to where roots can be. True when the frame was finished or shrunk enough to look again.
   bool clip(int& level, Frame<Shape>& frame) {
     if (!invertible_ || shape_.m == 0 || shape_.n == 0) return false;
@@ -367,7 +285,7 @@ class Search {
     const dvec2 band = preconditioned_error();
     dvec2 from, to;
     for (int k = 0; k < 2; ++k) {
-      if (!clip_range(f, k, band[k], from[k], to[k])) {
+      if (!clip_parameter(shape_, f, inverse_, k, band[k], from[k], to[k])) {
         --level;
         return true;
       }
@@ -387,13 +305,13 @@ class Search {
 
 }  // namespace
 
-void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error, RootList& roots,
-                SearchCounts& counts) noexcept {
+void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error,
+                RootList& roots, SearchCounts& counts) noexcept {
   Search<TensorShape>(shape, f, error, roots, counts).run(cell);
 }
 
-void find_roots(const TriangleShape& shape, const dvec2* f, const TriangleCell& cell, double error, RootList& roots,
-                SearchCounts& counts) noexcept {
+void find_roots(const TriangleShape& shape, const dvec2* f, const TriangleCell& cell, double error,
+                RootList& roots, SearchCounts& counts) noexcept {
   Search<TriangleShape>(shape, f, error, roots, counts).run(cell);
 }
 

@@ -12,30 +12,35 @@ struct Crossing {
   int sign = 0;          // of direction . normal: -1 entering, +1 leaving, 0 when rounding cannot tell
 };
 
-// `point` and the unnormalised `normal` in the surface's frame; `error`: how far, at right angles to the ray, the
-// point may be off; `extent`: the size of the surface, as its radius of curvature where it matters.
+// `point` and the unnormalised `normal` in the surface's frame; `error`: how far, at right angles to the ray,
+// the point may be off; `extent`: the size of the surface, as its radius of curvature where it matters.
 //
-// A root moves along the ray by error / cos(theta); near tangency the ray leaves the surface quadratically, which
-// bounds the same shift by sqrt(2 error extent).
-inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dvec3& normal, double error, double extent, bool tangent) {
+// A root moves along the ray by error / cos(theta); near tangency the ray leaves the surface quadratically,
+// which bounds the same shift by sqrt(2 error extent).
+inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dvec3& normal, double error,
+                              double extent, bool tangent) {
   Crossing c;
   c.s = glm::dot(point - ray.base, ray.direction) / ray.length2;
   const double along = glm::dot(normal, ray.direction), length = std::sqrt(ray.length2);
   const double cosine = std::fabs(along) / (glm::length(normal) * length);
   const double quadratic = std::sqrt(2.0 * error * extent);
-  const double shift = error < quadratic * cosine ? error / cosine : quadratic;  // also when the normal vanishes
+  const double shift =
+      error < quadratic * cosine ? error / cosine : quadratic;  // also when the normal vanishes
   c.s_error = 2.0 * shift / length + 0x1p-52 * std::fabs(ray.slide + c.s);
   c.extent = extent;
   c.sign = tangent || !(std::fabs(along) > 0.0) ? 0 : (along > 0.0 ? 1 : -1);
   return c;
 }
 
-// Whether a crossing of `surface` is a hit of the ray, whose local form is `local`; `t` receives its place on the ray.
+// Whether a crossing of `surface` is a hit of the ray, whose local form is `local`; `t` receives its place on
+// the ray.
 //
-// A ray that starts on a surface meets that surface at t = 0, to rounding, by construction. That root, and no other, is
-// left out: it is the one whose t is 0 within the error bounds and whose crossing goes the same way as the ray
-// leaves. A second root however near (the far wall of a sphere met at a grazing angle) crosses the other way and counts.
-inline bool accept(const Ray& ray, const LocalRay& local, int surface, const dvec3& frame, const Crossing& c, double& t) {
+// A ray that starts on a surface meets that surface at t = 0, to rounding, by construction. That root, and no
+// other, is left out: it is the one whose t is 0 within the error bounds and whose crossing goes the same way
+// as the ray leaves. A second root however near (the far wall of a sphere met at a grazing angle) crosses the
+// other way and counts.
+inline bool accept(const Ray& ray, const LocalRay& local, int surface, const dvec3& frame, const Crossing& c,
+                   double& t) {
   t = (local.slide + c.s) * local.scale;
   if (ray.start.surface == surface) {
     // The start is a rounded world position: it is off by an ulp of itself, along the normal too.

@@ -12,18 +12,22 @@ EllipsoidHit make_hit(const Ellipsoid& e, dvec3 on_sphere) {
   on_sphere /= glm::length(on_sphere);
   // Of a sphere the normal is exact in the surface's own axes: a rotation would only round it again.
   if (e.uniform_radius > 0.0) return {e.uniform_radius * on_sphere, on_sphere};
-  return {e.linear * on_sphere, glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
+  return {e.linear * on_sphere,
+          glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
 }
 
 }  // namespace
 
 Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(glm::inverse(map)) {
-  // Semi-axes lie between the column lengths' extremes only for orthogonal columns: the Frobenius norm bounds them all.
+  // Semi-axes lie between the column lengths' extremes only for orthogonal columns: the Frobenius norm bounds
+  // them all.
   extent = std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
   const double r = glm::length(map[0]);
-  const double skew = std::fmax(std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),
-                                std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
-                                          std::fabs(glm::dot(map[2], map[0]))) / r);
+  const double skew =
+      std::fmax(std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),
+                std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
+                          std::fabs(glm::dot(map[2], map[0]))) /
+                    r);
   if (skew <= 8.0 * unit_roundoff * r) uniform_radius = extent = r;
 }
 
@@ -38,7 +42,8 @@ int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, Ellipsoid
   const dvec3 origin = uniform ? ray.base / surface.uniform_radius : surface.inverse * ray.base;
   const dvec3 direction = uniform ? ray.direction / surface.uniform_radius : surface.inverse * ray.direction;
   const double length2 = glm::dot(direction, direction);
-  // From the point nearest to the centre the quadratic has no linear term, and its discriminant no cancellation.
+  // From the point nearest to the centre the quadratic has no linear term, and its discriminant no
+  // cancellation.
   const dvec3 nearest = origin - (glm::dot(origin, direction) / length2) * direction;
   const double impact = glm::length(nearest);
   if (!(impact <= 1.0)) return 0;

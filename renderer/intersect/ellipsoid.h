@@ -1,5 +1,5 @@
-// Closed-form intersection with the image of the unit sphere under a linear map: the surface that exact patches are
-// compared with.
+// Closed-form intersection with the image of the unit sphere under a linear map: the surface that exact
+// patches are compared with.
 #pragma once
 
 #include "renderer/intersect/root.h"
@@ -7,10 +7,10 @@
 namespace rondure {
 
 struct Ellipsoid {
-  dmat3 linear{1.0};           // unit sphere to surface, about the frame's zero
+  dmat3 linear{1.0};  // unit sphere to surface, about the frame's zero
   dmat3 inverse{1.0};
-  double extent = 1.0;         // largest semi-axis
-  double uniform_radius = 0.0; // the radius when `linear` is a scaled rotation, else 0
+  double extent = 1.0;          // largest semi-axis
+  double uniform_radius = 0.0;  // the radius when `linear` is a scaled rotation, else 0
 
   explicit Ellipsoid(const dmat3& map);
 };
@@ -23,7 +23,8 @@ struct EllipsoidHit {
 // Number of roots (0 or 2), entering first. Roots coincide for a tangential ray.
 int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept;
 
-// Longitude / 2 pi from +x towards +y, and colatitude / pi from +z, of the point's pre-image on the unit sphere.
+// Longitude / 2 pi from +x towards +y, and colatitude / pi from +z, of the point's pre-image on the unit
+// sphere.
 dvec2 ellipsoid_parameters(const Ellipsoid& surface, const dvec3& point) noexcept;
 
 // Bound on the distance of a computed hit from the exact one, at right angles to the ray.

@@ -33,7 +33,9 @@ struct GeometryData {
   EmbreeScene::Visitor visitor;
 };
 
-float down(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float down(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
 float up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 void bounds_of_leaf(const RTCBoundsFunctionArguments* args) {
@@ -49,7 +51,8 @@ void intersect_leaf(const RTCIntersectFunctionNArguments* args) noexcept {
   if (args->valid[0] == 0) return;
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
   void* query = reinterpret_cast<QueryContext*>(args->context)->query;
-  data.visitor(query, args->geomID, args->primID, RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
+  data.visitor(query, args->geomID, args->primID,
+               RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
 }
 
 void occlude_leaf(const RTCOccludedFunctionNArguments* args) noexcept {
@@ -62,8 +65,10 @@ void occlude_leaf(const RTCOccludedFunctionNArguments* args) noexcept {
 
 template <class EmbreeRay>
 void set_ray(EmbreeRay& ray, const dvec3& origin, const dvec3& direction, double far) {
-  ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y), ray.org_z = static_cast<float>(origin.z);
-  ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y), ray.dir_z = static_cast<float>(direction.z);
+  ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y),
+  ray.org_z = static_cast<float>(origin.z);
+  ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y),
+  ray.dir_z = static_cast<float>(direction.z);
   ray.tnear = 0.0f, ray.tfar = round_far(far);
   ray.time = 0.0f, ray.mask = 0xffffffffu, ray.id = 0, ray.flags = 0;
 }
@@ -107,7 +112,8 @@ EmbreeScene::EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radi
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.device = rtcNewDevice(nullptr);
-  if (!self.device) throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
+  if (!self.device)
+    throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);
   self.scene = rtcNewScene(self.device);
   self.data.resize(boxes.size());
@@ -131,7 +137,8 @@ EmbreeScene::EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radi
 
 EmbreeScene::~EmbreeScene() = default;
 
-void EmbreeScene::visit_all(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept {
+void EmbreeScene::visit_all(const dvec3& origin, const dvec3& direction, double far,
+                            void* query) const noexcept {
   RTCRayHit ray;
   set_ray(ray.ray, origin, direction, far);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -147,7 +154,8 @@ void EmbreeScene::visit_all(const dvec3& origin, const dvec3& direction, double 
 #endif
 }
 
-bool EmbreeScene::visit_any(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept {
+bool EmbreeScene::visit_any(const dvec3& origin, const dvec3& direction, double far,
+                            void* query) const noexcept {
   RTCRay ray;
   set_ray(ray, origin, direction, far);
   QueryContext context = make_context(query);

@@ -1,12 +1,13 @@
-// Embree behind a narrow door: boxes go in, candidate leaves come out. Nothing else includes Embree's headers.
+// Embree behind a narrow door: boxes go in, candidate leaves come out. Nothing else includes Embree's
+// headers.
 //
-// Why a single-precision traversal cannot lose a double-precision hit. All positions are taken about the scene's centre,
-// and a ray enters at the scene's bounding sphere of radius r (both in double), so every coordinate in play is
-// at most 2 r. Per axis, in units of 2^-24 r: rounding the origin costs 1 (|o| <= 2r, half an ulp); rounding
-// the direction bends the ray by 2^-24 of the way, 2 at the far side; Embree's slab test, one subtraction and one
-// product with a reciprocal good to 3 ulp, misplaces a plane by at most 5 2^-24 of the distance along the ray, 10. Boxes
-// are rounded outward and then padded by 2^-19 r, 32 of these units. Entry and exit are compared with tfar rounded
-// up by the same relative amount.
+// Why a single-precision traversal cannot lose a double-precision hit. All positions are taken about the
+// scene's centre, and a ray enters at the scene's bounding sphere of radius r (both in double), so every
+// coordinate in play is at most 2 r. Per axis, in units of 2^-24 r: rounding the origin costs 1 (|o| <= 2r,
+// half an ulp); rounding the direction bends the ray by 2^-24 of the way, 2 at the far side; Embree's slab
+// test, one subtraction and one product with a reciprocal good to 3 ulp, misplaces a plane by at most 5 2^-24
+// of the distance along the ray, 10. Boxes are rounded outward and then padded by 2^-19 r, 32 of these units.
+// Entry and exit are compared with tfar rounded up by the same relative amount.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +20,20 @@ namespace rondure {
 
 class EmbreeScene {
  public:
-  // Called for each leaf whose box the ray may meet. Sees `query` as it was given, and lowers `far` (single-precision t,
-  // same units as the traversal's direction) to narrow the search. Returning true ends an occlusion query.
+  // Called for each leaf whose box the ray may meet. Sees `query` as it was given, and lowers `far`
+  // (single-precision t, same units as the traversal's direction) to narrow the search. Returning true ends
+  // an occlusion query.
   using Visitor = bool (*)(void* query, unsigned surface, unsigned leaf, float& far) noexcept;
 
-  // boxes[s][k] bounds leaf k of surface s, in double, about the scene's centre; every corner is within `radius` of it.
+  // boxes[s][k] bounds leaf k of surface s, in double, about the scene's centre; every corner is within
+  // `radius` of it.
   EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radius, Visitor visitor);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // Origin within twice the radius of the centre; far >= 0. Never throws; non-finite rays must not come here (Embree
-  // aborts the process on them).
+  // Origin within twice the radius of the centre; far >= 0. Never throws; non-finite rays must not come here
+  // (Embree aborts the process on them).
   void visit_all(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept;
   bool visit_any(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept;
 

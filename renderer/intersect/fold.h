@@ -1,15 +1,15 @@
 // Roots near a fold: where the two projected polynomials' gradients are parallel, or nearly.
 //
 // Turn the pair so that the first polynomial carries the gradient and the second has (nearly) none. Where the
-// first is zero on a graph y(x), the second becomes a function h(x) of one variable. If h is convex (or concave)
-// over the whole cell, then it has two roots at most, and they lie on either side of its extremum: there is
-// nothing more to search. This holds for tangential rays, h touching zero, and at corners where the tangents are parallel.
+// first is zero on a graph y(x), the second becomes a function h(x) of one variable. If h is convex (or
+// concave) over the whole cell, then it has two roots at most, and they lie on either side of its extremum:
+// there is nothing more to search. This holds for tangential rays, h touching zero, and at corners where the
+// tangents are parallel.
 #pragma once
 
 #include <cmath>
 
-#include "renderer/intersect/cell.h"
-#include "renderer/intersect/interval.h"
+#include "renderer/intersect/graph.h"
 
 namespace rondure {
 
@@ -20,54 +20,13 @@ struct FoldResult {
   double tolerance = 0.0;  // how far rounding may move each, in cell parameters
 };
 
-namespace fold_detail {
-
-struct Jet {
-  double value, x, y, xx, xy, yy;
-};
-
-// The polynomials with the axes swapped when y is to be the first parameter.
-struct Axes {
-  bool swapped;
-  dvec2 to_cell(double x, double y) const { return swapped ? dvec2(y, x) : dvec2(x, y); }
-  Jet jet(const SecondOrder<dvec2>& s, int k) const {
-    return swapped ? Jet{s.value[k], s.dv[k], s.du[k], s.dvv[k], s.duv[k], s.duu[k]}
-                   : Jet{s.value[k], s.du[k], s.dv[k], s.duu[k], s.duv[k], s.dvv[k]};
-  }
-};
-
-// h = second polynomial along the zero graph of the first, and its derivatives by x.
-struct Along {
-  double h, dh, ddh, dy, miss;  // `miss`: how far y is from the graph
-};
-
-template <class Shape>
-Along along_graph(const Shape& shape, const dvec2* f, const Axes& axes, double x, double& y) {
-  SecondOrder<dvec2> s = shape.second(f, axes.to_cell(x, y));
-  Jet g = axes.jet(s, 0);
-  double miss = g.value / g.y;
-  for (int k = 0; k < 4 && std::fabs(miss) > 1e-15; ++k) {
-    y -= miss;
-    s = shape.second(f, axes.to_cell(x, y));
-    g = axes.jet(s, 0);
-    miss = g.value / g.y;
-  }
-  const Jet h = axes.jet(s, 1);
-  const double dy = -g.x / g.y, ddy = -(g.xx + dy * (2.0 * g.xy + dy * g.yy)) / g.y;
-  // To first order, the value on the graph itself.
-  return {h.value - h.y * miss, h.x + h.y * dy, h.xx + dy * (2.0 * h.xy + dy * h.yy) + h.y * ddy, dy, miss};
-}
-
-inline double beyond(double x) { return std::fabs(x - 0.5); }
-
-}  // namespace fold_detail
-
-// `f`: the turned pair on the cell, evaluation error below `error`. `curvature`: range of h'' over the cell, of one sign.
+// `f`: the turned pair on the cell, evaluation error below `error`. `curvature`: range of h'' over the cell,
+// of one sign.
 template <class Shape>
 FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval curvature, double error) {
-  using namespace fold_detail;
   constexpr double reach = 1.5;  // how far outside the cell the extremum may lie for the model to be trusted
   const Axes axes{swapped};
+  const auto beyond = [](double x) { return std::fabs(x - 0.5); };
   const double sign = curvature.low > 0.0 ? 1.0 : -1.0;
   const dvec2 c = Shape::center();
   double x = swapped ? c.y : c.x, y = swapped ? c.x : c.y;

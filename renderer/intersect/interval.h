@@ -1,5 +1,5 @@
-// Ranges of Bernstein polynomials. Rounding is to nearest: the bounds serve decisions that a later, more careful
-// test repeats, or carry the caller's own error bound.
+// Ranges of Bernstein polynomials. Rounding is to nearest: the bounds serve decisions that a later, more
+// careful test repeats, or carry the caller's own error bound.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,9 @@ struct Interval {
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a) { return {-a.high, -a.low}; }
-inline Interval operator*(double s, Interval a) { return s < 0.0 ? Interval{s * a.high, s * a.low} : Interval{s * a.low, s * a.high}; }
+inline Interval operator*(double s, Interval a) {
+  return s < 0.0 ? Interval{s * a.high, s * a.low} : Interval{s * a.low, s * a.high};
+}
 inline Interval operator*(Interval a, Interval b) {
   const auto [low, high] = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
   return {low, high};

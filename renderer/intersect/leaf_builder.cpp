@@ -9,11 +9,11 @@
 namespace rondure {
 namespace {
 
-// Contraction of Newton's method for a ray along the normal. Oblique rays see the leaf's curvature as well, and contract less;
-// at 0.05 a tenth of the rays that hit a sphere are left undecided, at 0.1 a third, at 0.025 few, for twice the leaves.
+// Contraction of Newton's method for a ray along the normal. Oblique rays see the leaf's curvature as well,
+// and contract less; at 0.05 a tenth of the rays that hit a sphere are left undecided, at 0.1 a third, at
+// 0.025 few, for twice the leaves.
 constexpr double target_contraction = 0.05;
-constexpr int weight_depth = 40;    // halvings after which a weight that is still not positive never will be
-
+constexpr int weight_depth = 40;  // halvings after which a weight that is still not positive never will be
 
 RectangleCell enlarged(const RectangleCell& c) {
   const dvec2 middle = 0.5 * (c.low + c.high);
@@ -41,17 +41,19 @@ void place(const TriangleCell& c, Leaf& leaf) {
 
 dvec4 abs_max(const dvec4& a, const dvec4& b) { return glm::max(a, glm::abs(b)); }
 
-// |inverse of J| . (spreads), largest row sum, for the ray along the normal through the leaf's centre; infinite where
-// the surface has no normal.
+// |inverse of J| . (spreads), largest row sum, for the ray along the normal through the leaf's centre;
+// infinite where the surface has no normal.
 double contraction_head_on(const Leaf& leaf) {
   const dvec3 x = dvec3(leaf.center) / leaf.center.w;
-  const dvec3 xa = (dvec3(leaf.da) - x * leaf.da.w) / leaf.center.w, xb = (dvec3(leaf.db) - x * leaf.db.w) / leaf.center.w;
+  const dvec3 xa = (dvec3(leaf.da) - x * leaf.da.w) / leaf.center.w,
+              xb = (dvec3(leaf.db) - x * leaf.db.w) / leaf.center.w;
   const double length_a = glm::length(xa);
   const dvec3 normal = glm::cross(xa, xb);
   if (!(glm::length(normal) > 1e-9 * length_a * glm::length(xb)) || !(length_a > 0.0)) return INFINITY;
   const dvec3 e0 = xa / length_a, e1 = glm::normalize(glm::cross(normal, xa));
   const dvec4 p0(e0, -glm::dot(e0, x)), p1(e1, -glm::dot(e1, x));
-  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db), b1 = glm::dot(p1, leaf.db);  // a1 = 0 by choice
+  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db),
+               b1 = glm::dot(p1, leaf.db);  // a1 = 0 by choice
   const double sa0 = glm::dot(glm::abs(p0), leaf.spread_a), sb0 = glm::dot(glm::abs(p0), leaf.spread_b);
   const double sa1 = glm::dot(glm::abs(p1), leaf.spread_a), sb1 = glm::dot(glm::abs(p1), leaf.spread_b);
   const double i00 = std::fabs(1.0 / a0), i01 = std::fabs(b0 / (a0 * b1)), i11 = std::fabs(1.0 / b1);
@@ -62,7 +64,14 @@ template <class Shape>
 class Builder {
  public:
   Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, int depth, LeafSet& out)
-      : shape_(shape), net_(net), patch_(patch), depth_(depth), out_(out), magnitudes_(net.size()), points_(net.size()), inner_(net.size()) {
+      : shape_(shape),
+        net_(net),
+        patch_(patch),
+        depth_(depth),
+        out_(out),
+        magnitudes_(net.size()),
+        points_(net.size()),
+        inner_(net.size()) {
     for (std::size_t k = 0; k < net.size(); ++k) magnitudes_[k] = glm::abs(net[k]);
   }
 
@@ -87,9 +96,10 @@ class Builder {
       return;
     }
     if (depth >= weight_depth)
-      throw std::runtime_error(fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), however "
-                                           "finely the patch is divided, so that it cannot be bounded",
-                                           patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
+      throw std::runtime_error(
+          fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), however "
+                      "finely the patch is divided, so that it cannot be bounded",
+                      patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
     typename Shape::Cell low, high;
     const bool across_a = glm::length(size_a_) >= glm::length(size_b_);
     std::vector<dvec4> scratch(points_.size() * 2);
@@ -133,12 +143,14 @@ class Builder {
     if (shape_.can_derive_a()) {
       shape_.derive_a(wide.data(), inner_.data());
       for (int k = 0; k < shape_.derived_a().size(); ++k)
-        leaf.spread_a = abs_max(leaf.spread_a, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.da);
+        leaf.spread_a =
+            abs_max(leaf.spread_a, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.da);
     }
     if (shape_.can_derive_b()) {
       shape_.derive_b(wide.data(), inner_.data());
       for (int k = 0; k < shape_.derived_b().size(); ++k)
-        leaf.spread_b = abs_max(leaf.spread_b, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.db);
+        leaf.spread_b =
+            abs_max(leaf.spread_b, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.db);
     }
   }
 };
@@ -158,11 +170,14 @@ LeafSet build_leaves(const std::vector<Net>& patches, int max_depth) {
     check_finite(points_of(patches[k]), patch);
     if (const auto* tensor = std::get_if<TensorNet>(&patches[k])) {
       if (std::max(tensor->m, tensor->n) > max_degree)
-        throw std::runtime_error(fmt::format("patch {}: degree ({}, {}) is above {}", patch, tensor->m, tensor->n, max_degree));
+        throw std::runtime_error(
+            fmt::format("patch {}: degree ({}, {}) is above {}", patch, tensor->m, tensor->n, max_degree));
       Builder<TensorShape>({tensor->m, tensor->n}, tensor->points, patch, max_depth, out).divide({}, 0);
     } else {
       const auto& triangle = std::get<TriangleNet>(patches[k]);
-      if (triangle.n > max_degree) throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, triangle.n, max_degree));
+      if (triangle.n > max_degree)
+        throw std::runtime_error(
+            fmt::format("patch {}: degree {} is above {}", patch, triangle.n, max_degree));
       Builder<TriangleShape>({triangle.n}, triangle.points, patch, max_depth, out).divide({}, 0);
     }
   }

@@ -14,19 +14,24 @@
 namespace rondure {
 
 struct LocalRay {
-  dvec3 base{0.0};        // point of the ray nearest to the frame's zero, to within an ulp of |base|
-  dvec3 direction{0.0};   // the ray's direction times a power of two: largest component in [1, 2)
-  double slide = 0.0;     // t (in units of `direction`) of `base`
-  double scale = 1.0;     // t of the ray = (slide + s) * scale
-  double length2 = 1.0;   // direction . direction
-  // Unit normals of two planes that meet in the ray, and minus their distances: plane . (x, 1) = 0 on the ray.
+  dvec3 base{0.0};       // point of the ray nearest to the frame's zero, to within an ulp of |base|
+  dvec3 direction{0.0};  // the ray's direction times a power of two: largest component in [1, 2)
+  double slide = 0.0;    // t (in units of `direction`) of `base`
+  double scale = 1.0;    // t of the ray = (slide + s) * scale
+  double length2 = 1.0;  // direction . direction
+  // Unit normals of two planes that meet in the ray, and minus their distances: plane . (x, 1) = 0 on the
+  // ray.
   dvec4 plane[2];
 };
 
 // |x| as the largest component: cheap, and within sqrt(3) of the length. Blind to NaN.
-inline double largest(const dvec3& x) { return std::fmax(std::fmax(std::fabs(x.x), std::fabs(x.y)), std::fabs(x.z)); }
+inline double largest(const dvec3& x) {
+  return std::fmax(std::fmax(std::fabs(x.x), std::fabs(x.y)), std::fabs(x.z));
+}
 
-inline bool is_finite(const dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
+inline bool is_finite(const dvec3& x) {
+  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+}
 
 // False when the ray is not finite or has no direction: such a ray meets nothing.
 inline bool make_local_ray(const dvec3& origin, const dvec3& direction, const dvec3& frame, LocalRay& out) {
@@ -54,8 +59,8 @@ inline bool make_local_ray(const dvec3& origin, const dvec3& direction, const dv
     out.base[k] = sum.high + (sum.low + (step.low - offset[k].low));
   }
 
-  // Any frame across d does; this one has no branch that could send nearly equal rays to distant frames but for
-  // the sign of d.z (Duff et al. 2017).
+  // Any frame across d does; this one has no branch that could send nearly equal rays to distant frames but
+  // for the sign of d.z (Duff et al. 2017).
   const dvec3 unit = d / std::sqrt(out.length2);
   const double sign = std::copysign(1.0, unit.z), a = -1.0 / (sign + unit.z), b = unit.x * unit.y * a;
   const dvec3 n0(1.0 + sign * unit.x * unit.x * a, sign * b, -sign * unit.x);

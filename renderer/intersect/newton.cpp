@@ -19,14 +19,19 @@ struct Inverse {
   }
   dvec2 operator*(dvec2 f) const { return dvec2(aa * f.x + ab * f.y, ba * f.x + bb * f.y); }
   // Row sums of |inverse| . diag(f).
-  dvec2 bound(dvec2 f) const { return dvec2(std::fabs(aa) * f.x + std::fabs(ab) * f.y, std::fabs(ba) * f.x + std::fabs(bb) * f.y); }
+  dvec2 bound(dvec2 f) const {
+    return dvec2(std::fabs(aa) * f.x + std::fabs(ab) * f.y, std::fabs(ba) * f.x + std::fabs(bb) * f.y);
+  }
 };
 
-// Whether a combination of the two planes keeps clear of the whole leaf. For a grazing ray the inverse of the Jacobian
-// proves nothing, but the plane through the ray that lies along the leaf (the combination with the least gradient) does.
-bool some_plane_misses(const Leaf& leaf, const LocalRay& ray, dvec2 f, dvec2 da, dvec2 db, double half_width, double error) {
+// Whether a combination of the two planes keeps clear of the whole leaf. For a grazing ray the inverse of the
+// Jacobian proves nothing, but the plane through the ray that lies along the leaf (the combination with the
+// least gradient) does.
+bool some_plane_misses(const Leaf& leaf, const LocalRay& ray, dvec2 f, dvec2 da, dvec2 db, double half_width,
+                       double error) {
   const double xx = da.x * da.x + db.x * db.x, yy = da.y * da.y + db.y * db.y, xy = da.x * da.y + db.x * db.y;
-  // Eigenvectors of the Gram matrix of the gradients: the least gradient, and at right angles to it the greatest.
+  // Eigenvectors of the Gram matrix of the gradients: the least gradient, and at right angles to it the
+  // greatest.
   const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
   dvec2 c = split > 0.0 ? dvec2(-xy, split + root) : dvec2(root - split, -xy);
   const double length = glm::length(c);
@@ -43,7 +48,8 @@ bool some_plane_misses(const Leaf& leaf, const LocalRay& ray, dvec2 f, dvec2 da,
 }
 
 template <class Shape, class Evaluate>
-NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay& ray, double error, Root& root, NewtonCounts& counts) {
+NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay& ray, double error,
+                     Root& root, NewtonCounts& counts) {
   const dvec2 f = project(ray, leaf.center), da = project(ray, leaf.da), db = project(ray, leaf.db);
   const LocalRay& r = ray;
   const dvec4 p0 = glm::abs(r.plane[0]), p1 = glm::abs(r.plane[1]);
@@ -94,13 +100,17 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
 }
 
 template <int M, int N>
-NewtonVerdict search_tensor(const Leaf& leaf, const TensorNet& net, const LocalRay& ray, double error, Root& root, NewtonCounts& counts) {
-  const auto evaluate = [&](dvec2 p) { return tensor_first<M, N>(net.points.data(), net.m, net.n, p.x, p.y); };
+NewtonVerdict search_tensor(const Leaf& leaf, const TensorNet& net, const LocalRay& ray, double error,
+                            Root& root, NewtonCounts& counts) {
+  const auto evaluate = [&](dvec2 p) {
+    return tensor_first<M, N>(net.points.data(), net.m, net.n, p.x, p.y);
+  };
   return search<TensorShape>(leaf, evaluate, ray, error, root, counts);
 }
 
 template <int N>
-NewtonVerdict search_triangle(const Leaf& leaf, const TriangleNet& net, const LocalRay& ray, double error, Root& root, NewtonCounts& counts) {
+NewtonVerdict search_triangle(const Leaf& leaf, const TriangleNet& net, const LocalRay& ray, double error,
+                              Root& root, NewtonCounts& counts) {
   const auto evaluate = [&](dvec2 p) { return triangle_first<N>(net.points.data(), net.n, p.x, p.y); };
   return search<TriangleShape>(leaf, evaluate, ray, error, root, counts);
 }
@@ -124,13 +134,26 @@ NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& r
   } else {
     const auto& triangle = std::get<TriangleNet>(net);
     switch (triangle.n) {
-      case 1: verdict = search_triangle<1>(leaf, triangle, ray, error, root, counts); break;
-      case 2: verdict = search_triangle<2>(leaf, triangle, ray, error, root, counts); break;
-      case 3: verdict = search_triangle<3>(leaf, triangle, ray, error, root, counts); break;
-      case 4: verdict = search_triangle<4>(leaf, triangle, ray, error, root, counts); break;
-      case 5: verdict = search_triangle<5>(leaf, triangle, ray, error, root, counts); break;
-      case 6: verdict = search_triangle<6>(leaf, triangle, ray, error, root, counts); break;
-      default: verdict = search_triangle<dynamic>(leaf, triangle, ray, error, root, counts);
+      case 1:
+        verdict = search_triangle<1>(leaf, triangle, ray, error, root, counts);
+        break;
+      case 2:
+        verdict = search_triangle<2>(leaf, triangle, ray, error, root, counts);
+        break;
+      case 3:
+        verdict = search_triangle<3>(leaf, triangle, ray, error, root, counts);
+        break;
+      case 4:
+        verdict = search_triangle<4>(leaf, triangle, ray, error, root, counts);
+        break;
+      case 5:
+        verdict = search_triangle<5>(leaf, triangle, ray, error, root, counts);
+        break;
+      case 6:
+        verdict = search_triangle<6>(leaf, triangle, ray, error, root, counts);
+        break;
+      default:
+        verdict = search_triangle<dynamic>(leaf, triangle, ray, error, root, counts);
     }
   }
   if (verdict == NewtonVerdict::undecided) ++counts.undecided;

@@ -28,8 +28,9 @@ dvec2 extended_residual(const Net& net, const LocalRay& ray, dvec2 p) {
   const auto add = [&](Extended factor, const dvec4& point) {
     for (int k = 0; k < 2; ++k) {
       const dvec4& plane = ray.plane[k];
-      sum[k] += factor * (static_cast<Extended>(plane.x) * point.x + static_cast<Extended>(plane.y) * point.y +
-                          static_cast<Extended>(plane.z) * point.z + static_cast<Extended>(plane.w) * point.w);
+      sum[k] +=
+          factor * (static_cast<Extended>(plane.x) * point.x + static_cast<Extended>(plane.y) * point.y +
+                    static_cast<Extended>(plane.z) * point.z + static_cast<Extended>(plane.w) * point.w);
     }
   };
   const Extended u = p.x, v = p.y;
@@ -45,7 +46,8 @@ dvec2 extended_residual(const Net& net, const LocalRay& ray, dvec2 p) {
     Extended pu = 1;
     for (int i = 0; i <= n; ++i, pu *= u) {
       extended_basis(n - i, v, 1 - u - v, bv);
-      for (int j = 0; j <= n - i; ++j) add(static_cast<Extended>(binomial(n, i)) * pu * bv[j], triangle.at(i, j));
+      for (int j = 0; j <= n - i; ++j)
+        add(static_cast<Extended>(binomial(n, i)) * pu * bv[j], triangle.at(i, j));
     }
   }
   return dvec2(static_cast<double>(sum[0]), static_cast<double>(sum[1]));
@@ -58,18 +60,21 @@ FirstOrder<dvec2> projected(const Net& net, const LocalRay& ray, dvec2 p) {
   return {project(ray, s.value), project(ray, s.du), project(ray, s.dv)};
 }
 
-// The direction in the plane of the two residuals along which the patch moves most: the greater eigenvector of J J^T.
+// The direction in the plane of the two residuals along which the patch moves most: the greater eigenvector
+// of J J^T.
 dvec2 strong_direction(const FirstOrder<dvec2>& s) {
-  const double xx = s.du.x * s.du.x + s.dv.x * s.dv.x, yy = s.du.y * s.du.y + s.dv.y * s.dv.y, xy = s.du.x * s.du.y + s.dv.x * s.dv.y;
+  const double xx = s.du.x * s.du.x + s.dv.x * s.dv.x, yy = s.du.y * s.du.y + s.dv.y * s.dv.y,
+               xy = s.du.x * s.du.y + s.dv.x * s.dv.y;
   const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
   const dvec2 c = split > 0.0 ? dvec2(split + root, xy) : dvec2(xy, root - split);
   const double length = glm::length(c);
   return length > 0.0 ? c / length : dvec2(1.0, 0.0);
 }
 
-// Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch hardly moves, and
-// curvature throws it off the other equation; so each trial step, shortened until it helps, is followed by a correction of
-// the strong equation alone. Kept only when the residual falls; done when it is below `enough`.
+// Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch
+// hardly moves, and curvature throws it off the other equation; so each trial step, shortened until it helps,
+// is followed by a correction of the strong equation alone. Kept only when the residual falls; done when it
+// is below `enough`.
 template <class Shape>
 dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
   p = Shape::clamp(p);
@@ -77,7 +82,8 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
   for (int k = 0; k < 16 && size_of(f) > enough; ++k) {
     const FirstOrder<dvec2> s = projected(net, ray, p);
     const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
-    const dvec2 full = det != 0.0 ? dvec2(s.dv.y * f.x - s.dv.x * f.y, s.du.x * f.y - s.du.y * f.x) / det : dvec2(0.0);
+    const dvec2 full =
+        det != 0.0 ? dvec2(s.dv.y * f.x - s.dv.x * f.y, s.du.x * f.y - s.du.y * f.x) / det : dvec2(0.0);
     const double length = size_of(full);
     bool better = false;
     // The last trial is the correction alone.
@@ -87,7 +93,8 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
       const FirstOrder<dvec2> at = projected(net, ray, q);
       const dvec2 strong = strong_direction(at), slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
       const double steepness = glm::dot(slope, slope);
-      if (steepness > 0.0) q = Shape::clamp(q - slope * (glm::dot(strong, extended_residual(net, ray, q)) / steepness));
+      if (steepness > 0.0)
+        q = Shape::clamp(q - slope * (glm::dot(strong, extended_residual(net, ray, q)) / steepness));
       const dvec2 next = extended_residual(net, ray, q);
       better = glm::dot(next, next) < glm::dot(f, f);
       if (better) p = q, f = next;

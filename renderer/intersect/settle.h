@@ -1,12 +1,13 @@
 // The last word on a root: is it on the patch, and is it on the ray?
 //
-// Rounding can put a root just outside its patch, or leave it open whether a ray touches or passes, so the solvers
-// propose roots a little beyond what they can be sure of. Whether one counts is then a single question: does a point of
-// the patch itself lie on the ray, to within the rounding of its control points? A root outside is brought to
-// the boundary and slid along it to where the residual is least; the residual is summed in extended precision, so that
-// what is left is the rounding of the net (1 roundoff, and 1 more for the neighbour's) and of the
-// parameters (at most 1, as |S_u| <= degree * scale only in passing). Both patches at a seam see the same pair of
-// planes and answer the same question about the same curve: no ray passes between them.
+// Rounding can put a root just outside its patch, or leave it open whether a ray touches or passes, so the
+// solvers propose roots a little beyond what they can be sure of. Whether one counts is then a single
+// question: does a point of the patch itself lie on the ray, to within the rounding of its control points? A
+// root outside is brought to the boundary and slid along it to where the residual is least; the residual is
+// summed in extended precision, so that what is left is the rounding of the net (1 roundoff, and 1 more for
+// the neighbour's) and of the parameters (at most 1, as |S_u| <= degree * scale only in passing). Both
+// patches at a seam see the same pair of planes and answer the same question about the same curve: no ray
+// passes between them.
 #pragma once
 
 #include "renderer/intersect/root.h"

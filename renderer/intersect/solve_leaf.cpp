@@ -16,11 +16,13 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
   if (solver == Solver::newton) {
     Root root;
     switch (newton_on_leaf(leaf, net, ray, error, root, counts.newton)) {
-      case NewtonVerdict::none: return;
+      case NewtonVerdict::none:
+        return;
       case NewtonVerdict::root:
         if (settle(net, leaf.scale, ray, root)) roots.push(root);
         return;
-      case NewtonVerdict::undecided: break;
+      case NewtonVerdict::undecided:
+        break;
     }
   }
   constexpr int largest_net = (max_degree + 1) * (max_degree + 1);
@@ -28,9 +30,11 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
   project_net(points_of(net), ray, projected);
   RootList candidates;
   if (const auto* tensor = std::get_if<TensorNet>(&net))
-    find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, candidates, counts.search);
+    find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, candidates,
+               counts.search);
   else
-    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, candidates, counts.search);
+    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, candidates,
+               counts.search);
   for (Root root : candidates)
     if (settle(net, leaf.scale, ray, root)) roots.push(root);
 }

@@ -20,7 +20,7 @@ namespace {
 
 // What a solver needs of one surface, beside its nets.
 struct CompiledSurface {
-  LeafSet set;                         // empty for an analytic surface
+  LeafSet set;  // empty for an analytic surface
   std::optional<Ellipsoid> ellipsoid;
   dvec3 frame{0.0};
 };
@@ -33,7 +33,8 @@ struct Query {
   const std::vector<CompiledSurface>* compiled;
   const Ray* ray;
   Mode mode;
-  double far_origin;  // t of the traversal's origin; the traversal's direction is the ray's times 1 / `far_scale`
+  double far_origin;  // t of the traversal's origin; the traversal's direction is the ray's times 1 /
+                      // `far_scale`
   double far_scale;
   unsigned local_surface = ~0u;
   bool local_valid = false;
@@ -51,7 +52,8 @@ bool nearer(const Hit& a, const Hit& b) {
 }
 
 // Takes one crossing into the query. True when an occlusion query is settled.
-bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const dvec3& normal, const Crossing& c, float& far) {
+bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const dvec3& normal,
+          const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = (*q.compiled)[surface].frame;
   if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return false;
@@ -87,7 +89,8 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     const int count = intersect_ellipsoid(*compiled.ellipsoid, q.local, hits);
     for (int k = 0; k < count; ++k) {
       const double error = ellipsoid_error(*compiled.ellipsoid);
-      const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
+      const Crossing c =
+          make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
       if (take(q, surface, 0, dvec2(0.0), hits[k].point, hits[k].normal, c, far)) return true;
     }
     return false;
@@ -106,7 +109,8 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     const dvec3 xu = dvec3(s.du) - x * s.du.w, xv = dvec3(s.dv) - x * s.dv.w;
     dvec3 normal = glm::cross(xu, xv);
     // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
-    if (!(glm::length(normal) > 1e-6 * glm::length(xu) * glm::length(xv))) normal = unit_normal(net, root.u, root.v);
+    if (!(glm::length(normal) > 1e-6 * glm::length(xu) * glm::length(xv)))
+      normal = unit_normal(net, root.u, root.v);
     const Crossing c = make_crossing(q.local, x, normal, error / w, leaf.scale.position / w, root.tangent);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }
@@ -130,7 +134,8 @@ struct Tracer::Implementation {
     const double b2 = glm::dot(global.base, global.base), r = radius * (1.0 + 1e-9);
     if (b2 > r * r) return false;
     const double half = std::sqrt((r * r - b2) / global.length2);
-    const double start = ray.t_min / global.scale - global.slide, end = ray.t_max / global.scale - global.slide;
+    const double start = ray.t_min / global.scale - global.slide,
+                 end = ray.t_max / global.scale - global.slide;
     // A start on a surface may lie an error bound behind the first root that counts.
     const double near = std::max(start - 1e-9 * half, -half);
     if (!(near <= half) || !(end >= near)) return false;
@@ -142,14 +147,16 @@ struct Tracer::Implementation {
     return true;
   }
 
-  // What only a hit that is reported needs: the limit normal of a patch, the parameters of an analytic surface.
+  // What only a hit that is reported needs: the limit normal of a patch, the parameters of an analytic
+  // surface.
   void finish(Hit& hit) const {
     const auto k = static_cast<std::size_t>(hit.surface);
     if (const auto& ellipsoid = compiled[k].ellipsoid) {
       const dvec2 p = ellipsoid_parameters(*ellipsoid, hit.point - compiled[k].frame);
       hit.u = p.x, hit.v = p.y;
     } else {
-      hit.normal = unit_normal(surfaces[k].surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
+      hit.normal =
+          unit_normal(surfaces[k].surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
     }
   }
 
@@ -188,7 +195,8 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   const std::size_t count = self.surfaces.size();
   std::size_t patches = 1;
   for (const TracedSurface& traced : self.surfaces) patches += traced.surface.patches.size();
-  const int depth = std::clamp(static_cast<int>(std::log2(leaf_budget / static_cast<double>(patches))), shallowest, deepest);
+  const int depth = std::clamp(static_cast<int>(std::log2(leaf_budget / static_cast<double>(patches))),
+                               shallowest, deepest);
 
   self.compiled.resize(count);
   std::vector<std::string> errors(count);
@@ -257,11 +265,13 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
 
   std::vector<std::size_t> order(hits.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nearer(hits[a], hits[b]); });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return nearer(hits[a], hits[b]); });
   std::vector<Hit> out;
   std::vector<int> out_signs;
   for (const std::size_t k : order) {
-    // Neighbouring patches (and leaves) both report a point on their seam: same surface, same crossing, same t to rounding.
+    // Neighbouring patches (and leaves) both report a point on their seam: same surface, same crossing, same
+    // t to rounding.
     bool known = false;
     for (std::size_t j = out.size(); j-- > 0 && !known;) {
       if (hits[k].t - out[j].t > hits[k].t_error + out[j].t_error) continue;
@@ -287,7 +297,8 @@ TracerStatistics Tracer::statistics() const {
   s.leaves = self.leaf_count;
   for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
     s.patches += self.surfaces[k].surface.patches.size();
-    for (const Net& net : self.surfaces[k].surface.patches) s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
+    for (const Net& net : self.surfaces[k].surface.patches)
+      s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
     s.bytes += self.compiled[k].set.leaves.size() * sizeof(Leaf);
   }
   if (self.embree) s.bytes += self.embree->bytes();

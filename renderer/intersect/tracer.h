@@ -26,8 +26,8 @@ struct TracerStatistics {
 // Immutable once built; every query is const, thread-safe and noexcept.
 class Tracer {
  public:
-  // Throws std::runtime_error naming surface and patch when a net cannot be bounded (non-finite, or weights that
-  // change sign after refinement).
+  // Throws std::runtime_error naming surface and patch when a net cannot be bounded (non-finite, or weights
+  // that change sign after refinement).
   explicit Tracer(std::vector<TracedSurface> surfaces);
   ~Tracer();
   Tracer(Tracer&&) noexcept;

@@ -1,5 +1,6 @@
 // Error-free transformations: a rounded result and the exact error that it left behind.
-// Source: Dekker 1971 and Knuth (TAOCP 2, 4.2.2); the product uses a fused multiply-add (Ogita, Rump, Oishi 2005).
+// Source: Dekker 1971 and Knuth (TAOCP 2, 4.2.2); the product uses a fused multiply-add (Ogita, Rump, Oishi
+// 2005).
 #pragma once
 
 #include <cmath>

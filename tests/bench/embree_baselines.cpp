@@ -43,11 +43,14 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void add_mesh(RTCGeometry geometry, std::size_t triangles) {
-  const auto rows = static_cast<unsigned>(std::sqrt(static_cast<double>(triangles) / 4.0)), columns = 2 * rows;
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+  const auto rows = static_cast<unsigned>(std::sqrt(static_cast<double>(triangles) / 4.0)),
+             columns = 2 * rows;
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                static_cast<std::size_t>(rows + 1) * columns));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                                                 static_cast<std::size_t>(2) * rows * columns));
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                              static_cast<std::size_t>(2) * rows * columns));
   for (unsigned i = 0; i <= rows; ++i)
     for (unsigned j = 0; j < columns; ++j) {
       const double theta = std::numbers::pi * i / rows, phi = 2.0 * std::numbers::pi * j / columns;
@@ -57,7 +60,8 @@ void add_mesh(RTCGeometry geometry, std::size_t triangles) {
     }
   for (unsigned i = 0; i < rows; ++i)
     for (unsigned j = 0; j < columns; ++j) {
-      const unsigned next = (j + 1) % columns, a = i * columns + j, b = i * columns + next, c = a + columns, d = b + columns;
+      const unsigned next = (j + 1) % columns, a = i * columns + j, b = i * columns + next, c = a + columns,
+                     d = b + columns;
       for (const unsigned k : {a, c, b, b, c, d}) *indices++ = k;
     }
 }
@@ -70,15 +74,18 @@ struct EmbreeBaseline::Implementation {
   RTCScene scene = nullptr;
 };
 
-EmbreeBaseline::EmbreeBaseline(Kind kind, std::size_t triangles) : implementation_(std::make_unique<Implementation>()) {
+EmbreeBaseline::EmbreeBaseline(Kind kind, std::size_t triangles)
+    : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.device = rtcNewDevice(nullptr);
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);
   self.scene = rtcNewScene(self.device);
-  constexpr RTCGeometryType types[] = {RTC_GEOMETRY_TYPE_SPHERE_POINT, RTC_GEOMETRY_TYPE_USER, RTC_GEOMETRY_TYPE_TRIANGLE};
+  constexpr RTCGeometryType types[] = {RTC_GEOMETRY_TYPE_SPHERE_POINT, RTC_GEOMETRY_TYPE_USER,
+                                       RTC_GEOMETRY_TYPE_TRIANGLE};
   RTCGeometry geometry = rtcNewGeometry(self.device, types[static_cast<int>(kind)]);
   if (kind == Kind::sphere_point) {
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
+    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                          RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
     v[0] = v[1] = v[2] = 0.0f, v[3] = 1.0f;
   } else if (kind == Kind::user_sphere) {
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
@@ -102,10 +109,12 @@ std::size_t EmbreeBaseline::trace(const std::vector<Ray>& rays, double* worst_er
   std::size_t hits = 0;
   for (const Ray& r : rays) {
     RTCRayHit q;
-    q.ray.org_x = static_cast<float>(r.origin.x), q.ray.org_y = static_cast<float>(r.origin.y), q.ray.org_z = static_cast<float>(r.origin.z);
+    q.ray.org_x = static_cast<float>(r.origin.x), q.ray.org_y = static_cast<float>(r.origin.y),
+    q.ray.org_z = static_cast<float>(r.origin.z);
     q.ray.dir_x = static_cast<float>(r.direction.x), q.ray.dir_y = static_cast<float>(r.direction.y);
     q.ray.dir_z = static_cast<float>(r.direction.z);
-    q.ray.tnear = 0.0f, q.ray.tfar = INFINITY, q.ray.time = 0.0f, q.ray.mask = ~0u, q.ray.id = 0, q.ray.flags = 0;
+    q.ray.tnear = 0.0f, q.ray.tfar = INFINITY, q.ray.time = 0.0f, q.ray.mask = ~0u, q.ray.id = 0,
+    q.ray.flags = 0;
     q.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     q.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -119,7 +128,8 @@ std::size_t EmbreeBaseline::trace(const std::vector<Ray>& rays, double* worst_er
     ++hits;
     if (worst_error) {
       const dvec3 o(q.ray.org_x, q.ray.org_y, q.ray.org_z), d(q.ray.dir_x, q.ray.dir_y, q.ray.dir_z);
-      *worst_error = std::fmax(*worst_error, std::fabs(glm::length(o + static_cast<double>(q.ray.tfar) * d) - 1.0));
+      *worst_error =
+          std::fmax(*worst_error, std::fabs(glm::length(o + static_cast<double>(q.ray.tfar) * d) - 1.0));
     }
   }
   return hits;

@@ -1,5 +1,5 @@
-// One run, one table: rays per second on one thread, as ratios to Embree's own sphere measured in the same rounds; Newton steps,
-// memory and build times. Usage: rondure_bench [ROUNDS]
+// One run, one table: rays per second on one thread, as ratios to Embree's own sphere measured in the same
+// rounds; Newton steps, memory and build times. Usage: rondure_bench [ROUNDS]
 
 #include <fmt/core.h>
 
@@ -42,7 +42,8 @@ struct Contender {
 Contender patch_contender(const std::string& name, const Tracer& tracer, const std::vector<Ray>& rays) {
   double worst = 0.0;
   for (const Ray& ray : rays)
-    if (const Hit hit = tracer.closest(ray)) worst = std::fmax(worst, std::fabs(glm::length(hit.point) - 1.0));
+    if (const Hit hit = tracer.closest(ray))
+      worst = std::fmax(worst, std::fabs(glm::length(hit.point) - 1.0));
   const auto trace = [&tracer](const std::vector<Ray>& set) {
     std::size_t hits = 0;
     for (const Ray& ray : set) hits += static_cast<bool>(tracer.closest(ray));
@@ -51,10 +52,12 @@ Contender patch_contender(const std::string& name, const Tracer& tracer, const s
   return {name, trace, tracer.statistics().bytes, worst};
 }
 
-Contender baseline_contender(const std::string& name, const EmbreeBaseline& baseline, const std::vector<Ray>& rays) {
+Contender baseline_contender(const std::string& name, const EmbreeBaseline& baseline,
+                             const std::vector<Ray>& rays) {
   double worst = 0.0;
   baseline.trace(rays, &worst);
-  return {name, [&baseline](const std::vector<Ray>& set) { return baseline.trace(set); }, baseline.bytes(), worst};
+  return {name, [&baseline](const std::vector<Ray>& set) { return baseline.trace(set); }, baseline.bytes(),
+          worst};
 }
 
 void print_counts(const char* name, const Tracer& tracer, const std::vector<Ray>& rays) {
@@ -62,10 +65,11 @@ void print_counts(const char* name, const Tracer& tracer, const std::vector<Ray>
   for (const Ray& ray : rays) tracer.closest(ray);
   const SolverCounts& counts = thread_counts();
   const double n = static_cast<double>(rays.size());
-  fmt::print("  {:<24} {:>8.2f} {:>8.2f} {:>8.2f} {:>12.3f} {:>8.2f}\n", name, static_cast<double>(counts.newton.leaves) / n,
-             static_cast<double>(counts.newton.steps) / n,
-             static_cast<double>(counts.newton.steps) / std::max(1.0, static_cast<double>(counts.newton.iterated)),
-             static_cast<double>(counts.newton.undecided) / n, static_cast<double>(counts.search.cells) / n);
+  fmt::print(
+      "  {:<24} {:>8.2f} {:>8.2f} {:>8.2f} {:>12.3f} {:>8.2f}\n", name,
+      static_cast<double>(counts.newton.leaves) / n, static_cast<double>(counts.newton.steps) / n,
+      static_cast<double>(counts.newton.steps) / std::max(1.0, static_cast<double>(counts.newton.iterated)),
+      static_cast<double>(counts.newton.undecided) / n, static_cast<double>(counts.search.cells) / n);
 }
 
 // `count` cube tilings on a grid, 6 patches each.
@@ -92,7 +96,8 @@ int main(int argc, char** argv) {
       mesh(EmbreeBaseline::Kind::triangle_mesh, 4'000'000);
   const Tracer analytic({{family_surface(R"({"type": "sphere"})"), Solver::newton}});
   const Tracer cube_newton({{cube, Solver::newton}}), cube_clipping({{cube, Solver::clipping}});
-  const Tracer hemispheres_newton({{hemispheres, Solver::newton}}), octants_newton({{octants, Solver::newton}});
+  const Tracer hemispheres_newton({{hemispheres, Solver::newton}}),
+      octants_newton({{octants, Solver::newton}});
 
   std::vector<Contender> contenders;
   contenders.push_back(baseline_contender("Embree SPHERE_POINT", point, sets[1]));
@@ -114,10 +119,12 @@ int main(int argc, char** argv) {
       }
 
   fmt::print("single rays, one thread, {} rounds ({} hits)\n", rounds, sink);
-  fmt::print("  {:<24} {:>10} {:>10} {:>12} {:>12} {:>12} {:>12}\n", "", "coherent", "incoherent", "Mray/s coh.", "Mray/s inc.", "worst error", "memory");
+  fmt::print("  {:<24} {:>10} {:>10} {:>12} {:>12} {:>12} {:>12}\n", "", "coherent", "incoherent",
+             "Mray/s coh.", "Mray/s inc.", "worst error", "memory");
   for (const Contender& c : contenders)
-    fmt::print("  {:<24} {:>9.3f}x {:>9.3f}x {:>12.2f} {:>12.2f} {:>12.1e} {:>9.2f} MB\n", c.name, median(c.ratio[0]), median(c.ratio[1]),
-               median(c.rate[0]), median(c.rate[1]), c.worst_error, static_cast<double>(c.bytes) * 1e-6);
+    fmt::print("  {:<24} {:>9.3f}x {:>9.3f}x {:>12.2f} {:>12.2f} {:>12.1e} {:>9.2f} MB\n", c.name,
+               median(c.ratio[0]), median(c.ratio[1]), median(c.rate[0]), median(c.rate[1]), c.worst_error,
+               static_cast<double>(c.bytes) * 1e-6);
   fmt::print("\nper incoherent ray           leaves    steps  steps/it.   undecided    cells\n");
   print_counts("cube, newton", cube_newton, sets[1]);
   print_counts("hemispheres, newton", hemispheres_newton, sets[1]);
@@ -130,8 +137,8 @@ int main(int argc, char** argv) {
     TracerStatistics statistics;
     const double time = seconds([&] { statistics = Tracer(std::move(surfaces)).statistics(); });
     const double patches = static_cast<double>(statistics.patches);
-    fmt::print("  cube tilings        {:>12} {:>10} {:>8.3f} {:>10.0f} {:>12.0f}\n", statistics.patches, statistics.leaves, time, patches / time,
-               static_cast<double>(statistics.bytes) / patches);
+    fmt::print("  cube tilings        {:>12} {:>10} {:>8.3f} {:>10.0f} {:>12.0f}\n", statistics.patches,
+               statistics.leaves, time, patches / time, static_cast<double>(statistics.bytes) / patches);
   }
   return 0;
 }

@@ -17,7 +17,8 @@ inline std::vector<Ray> coherent_rays(int side) {
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       const double sx = 2.0 * (x + 0.5) / side - 1.0, sy = 2.0 * (y + 0.5) / side - 1.0;
-      rays.push_back({dvec3(0.3, -4.0, 0.5), glm::normalize(dvec3(0.27 * sx, 1.0, 0.27 * sy) - dvec3(0.075, 0.0, 0.125))});
+      rays.push_back({dvec3(0.3, -4.0, 0.5),
+                      glm::normalize(dvec3(0.27 * sx, 1.0, 0.27 * sy) - dvec3(0.075, 0.0, 0.125))});
     }
   return rays;
 }
@@ -29,8 +30,10 @@ inline std::vector<Ray> incoherent_rays(int count) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<Ray> rays;
   for (int k = 0; k < count; ++k) {
-    const double a = normal(random), b = normal(random), c = normal(random), d = normal(random), e = normal(random), f = normal(random);
-    const dvec3 origin = 3.0 * glm::normalize(dvec3(a, b, c)), target = std::cbrt(uniform(random)) * glm::normalize(dvec3(d, e, f));
+    const double a = normal(random), b = normal(random), c = normal(random), d = normal(random),
+                 e = normal(random), f = normal(random);
+    const dvec3 origin = 3.0 * glm::normalize(dvec3(a, b, c)),
+                target = std::cbrt(uniform(random)) * glm::normalize(dvec3(d, e, f));
     rays.push_back({origin, glm::normalize(target - origin)});
   }
   return rays;

@@ -1,4 +1,5 @@
-// Rays that no camera makes: not finite, without direction, of extreme length; and rays that lie in a surface.
+// Rays that no camera makes: not finite, without direction, of extreme length; and rays that lie in a
+// surface.
 
 #include <glm/geometric.hpp>
 #include <limits>
@@ -10,7 +11,8 @@
 using namespace rondure;
 
 namespace {
-constexpr double inf = std::numeric_limits<double>::infinity(), no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity(),
+                 no_number = std::numeric_limits<double>::quiet_NaN();
 }
 
 TEST_CASE("Rays that are not finite or have no direction hit nothing", "[hits]") {
@@ -35,7 +37,8 @@ TEST_CASE("Rays that are not finite or have no direction hit nothing", "[hits]")
 }
 
 TEST_CASE("The length of the direction changes t alone", "[hits]") {
-  const Tracer tracer({{family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), Solver::newton}});
+  const Tracer tracer(
+      {{family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), Solver::newton}});
   const dvec3 origin(0.1, 0.2, -3.0), direction(0.01, -0.02, 1.0);
   const Hit unit = tracer.closest({origin, direction});
   REQUIRE(unit);
@@ -68,7 +71,8 @@ TEST_CASE("t_min and t_max bound the hits", "[hits]") {
 
 TEST_CASE("A ray inside a plane patch ends, and a ray across it hits once", "[hits]") {
   const Tracer tracer({{family_surface(R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
-      "net": [[[-1, -1, 0, 1], [-1, 1, 0, 1]], [[1, -1, 0, 1], [1, 1, 0, 1]]]}]})"), Solver::newton}});
+      "net": [[[-1, -1, 0, 1], [-1, 1, 0, 1]], [[1, -1, 0, 1], [1, 1, 0, 1]]]}]})"),
+                        Solver::newton}});
   CHECK(tracer.all({dvec3(-3.0, 0.1, 0.0), dvec3(1.0, 0.0, 0.0)}).empty());
   CHECK(tracer.all({dvec3(-3.0, -3.0, 0.0), dvec3(1.0, 1.0, 0.0)}).empty());
   CHECK(tracer.all({dvec3(0.3, 0.1, 2.0), dvec3(0.0, 0.0, -1.0)}).size() == 1);
@@ -82,9 +86,11 @@ TEST_CASE("A ray inside a plane patch ends, and a ray across it hits once", "[hi
 TEST_CASE("Nets that cannot be bounded are refused by object and patch", "[hits]") {
   Surface surface;
   TensorNet net(1, 1);
-  for (int k = 0; k < 4; ++k) net.points[static_cast<std::size_t>(k)] = dvec4(k % 2, k / 2, 0.0, k == 3 ? -1.0 : 1.0);
+  for (int k = 0; k < 4; ++k)
+    net.points[static_cast<std::size_t>(k)] = dvec4(k % 2, k / 2, 0.0, k == 3 ? -1.0 : 1.0);
   surface.patches.push_back(net);
-  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}), Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
+  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}),
+                    Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
   net.points[3].w = 1.0;
   net.points[2].x = no_number;
   surface.patches[0] = net;

@@ -1,4 +1,5 @@
-// The ray cases of tests/data/rays, computed at 50 digits: nets of the four papers' tilings and single patches.
+// The ray cases of tests/data/rays, computed at 50 digits: nets of the four papers' tilings and single
+// patches.
 
 #include <fmt/core.h>
 
@@ -36,21 +37,26 @@ void check_file(const std::filesystem::path& path, Solver solver, Totals& totals
     const std::vector<Hit> hits = tracer.all({vector_of(ray["origin"]), direction});
     const auto describe = [&] { return path.filename().string() + " " + ray.dump().substr(0, 200); };
     if (hits.size() != ray["hits"].size()) {
-      // Where the file says that rounding decides, any count is right that keeps each hit near one of those listed.
-      if (ray["ambiguous"].empty()) ++totals.wrong, totals.worst = describe();
-      else ++totals.ambiguous;
+      // Where the file says that rounding decides, any count is right that keeps each hit near one of those
+      // listed.
+      if (ray["ambiguous"].empty())
+        ++totals.wrong, totals.worst = describe();
+      else
+        ++totals.ambiguous;
       continue;
     }
     totals.hits += static_cast<long>(hits.size());
     for (std::size_t k = 0; k < hits.size(); ++k) {
       const Json& expected = ray["hits"][k];
       const double cosine = std::fabs(glm::dot(hits[k].normal, direction)) / glm::length(direction);
-      // 8 ulp on the surface, as in sphere_hits_test; along the ray that is stretched by 1 / cos, at a double root to its
-      // square root: 2 sqrt(8 ulp).
+      // 8 ulp on the surface, as in sphere_hits_test; along the ray that is stretched by 1 / cos, at a double
+      // root to its square root: 2 sqrt(8 ulp).
       const double stretch = std::fmin(8.0 * 0x1p-52 / cosine, 2.0 * std::sqrt(8.0 * 0x1p-52));
       const double t = expected["t"].get<double>();
-      totals.t.add(std::fabs(hits[k].t - t), stretch / glm::length(direction) + 8.0 * 0x1p-52 * std::fabs(t), describe);
-      totals.point.add(glm::distance(hits[k].point, vector_of(expected["point"])), stretch + 8.0 * 0x1p-52, describe);
+      totals.t.add(std::fabs(hits[k].t - t), stretch / glm::length(direction) + 8.0 * 0x1p-52 * std::fabs(t),
+                   describe);
+      totals.point.add(glm::distance(hits[k].point, vector_of(expected["point"])), stretch + 8.0 * 0x1p-52,
+                       describe);
       // On the seam any owner may report; inside a patch it must be the one, at its parameters.
       const Json& owners = expected["owners"];
       bool owned = false;
@@ -59,11 +65,15 @@ void check_file(const std::filesystem::path& path, Solver solver, Totals& totals
         if (owner["patch"].get<int>() != hits[k].patch) continue;
         owned = true;
         const bool free_u = owner["u"].is_null(), free_v = owner["v"].is_null();
-        off = std::fmax(free_u ? 0.0 : std::fabs(owner["u"].get<double>() - hits[k].u), free_v ? 0.0 : std::fabs(owner["v"].get<double>() - hits[k].v));
-        // Speeds are of the order of 1. At singular corners the surface moves with the square of the parameters, and a tangential
-        // ray leaves it with the square of that: 16 ulps become sqrt and fourth root, 6e-8 and 2.4e-4.
-        const bool singular = owner["kind"] == "singular-corner", tangent = expected["multiplicity"].get<int>() > 1;
-        totals.parameter.add(off, singular ? (tangent ? 1e-3 : 1e-6) : 8.0 * stretch + 64.0 * 0x1p-52, describe);
+        off = std::fmax(free_u ? 0.0 : std::fabs(owner["u"].get<double>() - hits[k].u),
+                        free_v ? 0.0 : std::fabs(owner["v"].get<double>() - hits[k].v));
+        // Speeds are of the order of 1. At singular corners the surface moves with the square of the
+        // parameters, and a tangential ray leaves it with the square of that: 16 ulps become sqrt and fourth
+        // root, 6e-8 and 2.4e-4.
+        const bool singular = owner["kind"] == "singular-corner",
+                   tangent = expected["multiplicity"].get<int>() > 1;
+        totals.parameter.add(off, singular ? (tangent ? 1e-3 : 1e-6) : 8.0 * stretch + 64.0 * 0x1p-52,
+                             describe);
       }
       if (!owned) ++totals.wrong, totals.worst = describe();
     }
@@ -79,7 +89,8 @@ TEST_CASE("The reference's ray cases come out as they should", "[hits]") {
     ++files;
     for (const Solver solver : {Solver::newton, Solver::clipping}) check_file(entry.path(), solver, totals);
   }
-  INFO(files << " files, " << totals.rays << " rays, " << totals.hits << " hits, " << totals.ambiguous << " decided by rounding");
+  INFO(files << " files, " << totals.rays << " rays, " << totals.hits << " hits, " << totals.ambiguous
+             << " decided by rounding");
   INFO("wrong: " << totals.worst);
   INFO("t: " << totals.t.text());
   INFO("point: " << totals.point.text());

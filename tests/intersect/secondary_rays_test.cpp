@@ -1,4 +1,5 @@
-// Rays that start where others ended: leaving a convex surface they never meet it again, entering it they meet the far wall.
+// Rays that start where others ended: leaving a convex surface they never meet it again, entering it they
+// meet the far wall.
 
 #include <fmt/core.h>
 
@@ -31,7 +32,8 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
   std::mt19937_64 random(17);
   long hits = 0, self_hits = 0, escapes = 0, short_chords = 0;
   std::string worst = "none";
-  for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere_tiling", "topology": "hemispheres"})",
+  for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})",
+                             R"({"type": "sphere_tiling", "topology": "hemispheres"})",
                              R"({"type": "sphere_octant"})", R"({"type": "sphere"})"})
     for (const double radius : {1e-4, 1.0, 1e4})
       for (const double distance : {1e-8, 1.0, 1e8}) {
@@ -40,14 +42,17 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
         const Tracer tracer({{placed(family_surface(family), radius, center), Solver::newton}});
         for (int k = 0; k < 1500; ++k) {
           const dvec3 origin = center + radius * (1.5 + distance) * random_direction(random);
-          const dvec3 target = center + 0.98 * radius * random_direction(random) * std::uniform_real_distribution<double>(0.0, 1.0)(random);
+          const dvec3 target = center + 0.98 * radius * random_direction(random) *
+                                            std::uniform_real_distribution<double>(0.0, 1.0)(random);
           const Hit hit = tracer.closest({origin, target - origin});
           if (!hit) continue;
           ++hits;
           const RayStart start{hit.surface, hit.normal};
           const auto describe = [&](const dvec3& d) {
-            return fmt::format("{}, radius {}, distance {}: from ({:.17g}, {:.17g}, {:.17g}) along ({:.17g}, {:.17g}, {:.17g})", family, radius,
-                               distance, hit.point.x, hit.point.y, hit.point.z, d.x, d.y, d.z);
+            return fmt::format(
+                "{}, radius {}, distance {}: from ({:.17g}, {:.17g}, {:.17g}) along ({:.17g}, {:.17g}, "
+                "{:.17g})",
+                family, radius, distance, hit.point.x, hit.point.y, hit.point.z, d.x, d.y, d.z);
           };
           const dvec3 out = grazing(hit.normal, random, 1.0);
           const Ray leaving{hit.point, out, 0.0, INFINITY, start};
@@ -55,7 +60,8 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
           const dvec3 in = grazing(hit.normal, random, -1.0);
           const Ray entering{hit.point, in, 0.0, INFINITY, start};
           const Hit far = tracer.closest(entering);
-          // A chord shorter than the start's own rounding (an ulp of its coordinates, over the angle) may not show.
+          // A chord shorter than the start's own rounding (an ulp of its coordinates, over the angle) may not
+          // show.
           const double chord = -2.0 * radius * glm::dot(in, hit.normal);
           const double doubt = 64.0 * 0x1p-52 * (radius + glm::length(center)) / -glm::dot(in, hit.normal);
           if (chord < doubt) {

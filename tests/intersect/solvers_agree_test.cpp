@@ -1,5 +1,5 @@
-// Newton against clipping on surfaces that are no spheres, and both against a root search that shares nothing with
-// them: a fine grid of starts for plain Newton iteration.
+// Newton against clipping on surfaces that are no spheres, and both against a root search that shares nothing
+// with them: a fine grid of starts for plain Newton iteration.
 
 #include <fmt/core.h>
 
@@ -15,7 +15,9 @@ using namespace rondure;
 
 namespace {
 
-double uniform(std::mt19937_64& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+double uniform(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
 
 // A wavy sheet over [-1, 1]^2 (or half of it) with weights from 1/2 to 2: rays meet it up to several times.
 Net wavy_net(std::mt19937_64& random, bool tensor, int m, int n) {
@@ -36,8 +38,10 @@ Net wavy_net(std::mt19937_64& random, bool tensor, int m, int n) {
 }
 
 Ray random_ray(std::mt19937_64& random) {
-  const double ox = uniform(random, -3.0, 3.0), oy = uniform(random, -3.0, 3.0), oz = uniform(random, -3.0, 3.0);
-  const double tx = uniform(random, -0.9, 0.9), ty = uniform(random, -0.9, 0.9), tz = uniform(random, -0.5, 0.5);
+  const double ox = uniform(random, -3.0, 3.0), oy = uniform(random, -3.0, 3.0),
+               oz = uniform(random, -3.0, 3.0);
+  const double tx = uniform(random, -0.9, 0.9), ty = uniform(random, -0.9, 0.9),
+               tz = uniform(random, -0.5, 0.5);
   const dvec3 origin(ox, oy, oz);
   return {origin, dvec3(tx, ty, tz) - origin};
 }
@@ -45,7 +49,8 @@ Ray random_ray(std::mt19937_64& random) {
 // Distinct t of all roots that Newton's method reaches from a grid, parameters within the domain by `margin`.
 std::vector<double> grid_roots(const Net& net, const Ray& ray) {
   const bool triangle = std::holds_alternative<TriangleNet>(net);
-  const dvec3 d = glm::normalize(ray.direction), a = glm::normalize(glm::cross(d, std::fabs(d.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
+  const dvec3 d = glm::normalize(ray.direction),
+              a = glm::normalize(glm::cross(d, std::fabs(d.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
               b = glm::cross(d, a);
   std::vector<double> found;
   constexpr int grid = 24;
@@ -55,14 +60,15 @@ std::vector<double> grid_roots(const Net& net, const Ray& ray) {
       for (int k = 0; k < 12; ++k) {
         const SurfaceJet s = surface_jet(net, u, v);
         const dvec3 r = s.point - ray.origin;
-        const double fa = glm::dot(r, a), fb = glm::dot(r, b), au = glm::dot(s.du, a), av = glm::dot(s.dv, a), bu = glm::dot(s.du, b),
-                     bv = glm::dot(s.dv, b), det = au * bv - av * bu;
+        const double fa = glm::dot(r, a), fb = glm::dot(r, b), au = glm::dot(s.du, a), av = glm::dot(s.dv, a),
+                     bu = glm::dot(s.du, b), bv = glm::dot(s.dv, b), det = au * bv - av * bu;
         const double du = (fa * bv - fb * av) / det, dv = (fb * au - fa * bu) / det;
         u -= du, v -= dv;
         if (!(std::fabs(u) < 3.0) || !(std::fabs(v) < 3.0)) break;
         if (std::fmax(std::fabs(du), std::fabs(dv)) > 1e-14) continue;
         if (u < 0.0 || v < 0.0 || u > 1.0 || v > 1.0 || (triangle && u + v > 1.0)) break;
-        const double t = glm::dot(net_point(net, u, v) - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
+        const double t = glm::dot(net_point(net, u, v) - ray.origin, ray.direction) /
+                         glm::dot(ray.direction, ray.direction);
         if (t < 0.0) break;
         bool known = false;
         for (const double other : found) known = known || std::fabs(other - t) < 1e-9;
@@ -84,8 +90,18 @@ TEST_CASE("Newton, clipping and a grid of starts find the same roots of wavy pat
   long rays = 0, hits = 0, several = 0, disagreements = 0, lost = 0;
   std::string worst = "none";
   WorstCase t;
-  for (const Degree degree : {Degree{true, 1, 1}, {true, 2, 2}, {true, 2, 4}, {true, 3, 3}, {true, 4, 4}, {true, 5, 3}, {false, 0, 1},
-                              {false, 0, 2}, {false, 0, 3}, {false, 0, 4}, {false, 0, 6}, {false, 0, 7}})
+  for (const Degree degree : {Degree{true, 1, 1},
+                              {true, 2, 2},
+                              {true, 2, 4},
+                              {true, 3, 3},
+                              {true, 4, 4},
+                              {true, 5, 3},
+                              {false, 0, 1},
+                              {false, 0, 2},
+                              {false, 0, 3},
+                              {false, 0, 4},
+                              {false, 0, 6},
+                              {false, 0, 7}})
     for (int sheet = 0; sheet < 3; ++sheet) {
       Surface surface;
       surface.patches.push_back(wavy_net(random, degree.tensor, degree.m, degree.n));
@@ -97,15 +113,18 @@ TEST_CASE("Newton, clipping and a grid of starts find the same roots of wavy pat
         hits += static_cast<long>(a.size());
         several += a.size() > 1;
         const auto describe = [&] {
-          return fmt::format("degree ({}, {}){}, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}): {} and {}", degree.m, degree.n,
-                             degree.tensor ? "" : " triangle", ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
-                             ray.direction.y, ray.direction.z, a.size(), b.size());
+          return fmt::format(
+              "degree ({}, {}){}, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}): {} and "
+              "{}",
+              degree.m, degree.n, degree.tensor ? "" : " triangle", ray.origin.x, ray.origin.y, ray.origin.z,
+              ray.direction.x, ray.direction.y, ray.direction.z, a.size(), b.size());
         };
         if (a.size() != b.size()) {
           ++disagreements, worst = describe();
           continue;
         }
-        for (std::size_t j = 0; j < a.size(); ++j) t.add(std::fabs(a[j].t - b[j].t), a[j].t_error + b[j].t_error, describe);
+        for (std::size_t j = 0; j < a.size(); ++j)
+          t.add(std::fabs(a[j].t - b[j].t), a[j].t_error + b[j].t_error, describe);
         for (const double root : grid_roots(surface.patches[0], ray)) {
           bool known = false;
           for (const Hit& hit : a) known = known || std::fabs(hit.t - root) < 1e-8;

@@ -1,10 +1,10 @@
 // Every exact family against the analytic sphere: which rays hit, how often, where.
 
+#include <fmt/core.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <cstdlib>
-#include <fmt/core.h>
 #include <random>
 
 #include "renderer/bezier/rational.h"
@@ -21,9 +21,9 @@ namespace {
 
 constexpr double ulp = 0x1p-52;
 
-// In which rays at the sphere's rim may go either way. The solvers' residual bound is 12 roundoffs of |S| + |base| w,
-// which is 2.4 w R at most on these nets (hull of a leaf), hence 12 * 2.4 / 2 ulps of R, and 1.5 for the sphere's own
-// distance from the rounded nets.
+// In which rays at the sphere's rim may go either way. The solvers' residual bound is 12 roundoffs of |S| +
+// |base| w, which is 2.4 w R at most on these nets (hull of a leaf), hence 12 * 2.4 / 2 ulps of R, and 1.5
+// for the sphere's own distance from the rounded nets.
 constexpr double band = 16.0 * ulp;
 constexpr double position_tolerance = 8.0 * ulp;
 // t is wrong by what the position is wrong, divided by the cosine of incidence, and by its own rounding.
@@ -36,7 +36,8 @@ struct Tally {
   std::string worst_miss = "none";
 
   void merge(const Tally& o) {
-    rays += o.rays, hits += o.hits, in_band += o.in_band, wrong_count += o.wrong_count, disagreements += o.disagreements;
+    rays += o.rays, hits += o.hits, in_band += o.in_band, wrong_count += o.wrong_count,
+        disagreements += o.disagreements;
     if (o.worst_clearance > worst_clearance) worst_clearance = o.worst_clearance, worst_miss = o.worst_miss;
     position.merge(o.position);
     t.merge(o.t);
@@ -72,7 +73,8 @@ dvec3 random_direction(std::mt19937_64& random) {
 dvec3 boundary_point(const Surface& surface, std::mt19937_64& random, bool corner) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const std::size_t patch = std::uniform_int_distribution<std::size_t>(0, surface.patches.size() - 1)(random);
-  const double along = corner ? std::floor(2.0 * uniform(random)) : uniform(random), across = uniform(random) < 0.5 ? 0.0 : 1.0;
+  const double along = corner ? std::floor(2.0 * uniform(random)) : uniform(random),
+               across = uniform(random) < 0.5 ? 0.0 : 1.0;
   const bool swap = uniform(random) < 0.5;
   return net_point(surface.patches[patch], swap ? across : along, swap ? along : across);
 }
@@ -84,7 +86,8 @@ Ray make_ray(const Case& c, Kind kind, std::mt19937_64& random, bool& starts_ins
   const dvec3 side = glm::normalize(glm::cross(d, random_direction(random)));
   Ray ray;
   starts_inside = false;
-  const double scale = std::exp2(std::floor(20.0 * uniform(random)) - 10.0);  // directions need not be unit vectors
+  const double scale =
+      std::exp2(std::floor(20.0 * uniform(random)) - 10.0);  // directions need not be unit vectors
   ray.direction = d * scale;
   const auto set_origin = [&](const dvec3& unit) { ray.origin = c.center + c.radius * unit; };
   const auto aim = [&](double distance, const dvec3& target) {
@@ -92,9 +95,15 @@ Ray make_ray(const Case& c, Kind kind, std::mt19937_64& random, bool& starts_ins
     ray.direction = (c.center + target - ray.origin) * (0.5 + uniform(random));
   };
   switch (kind) {
-    case Kind::outside: set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * (1.0 + 9.0 * uniform(random) + 0.5)); break;
-    case Kind::inside: set_origin(random_direction(random) * 0.99 * std::cbrt(uniform(random))), starts_inside = true; break;
-    case Kind::far_away: set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * 1e6); break;
+    case Kind::outside:
+      set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * (1.0 + 9.0 * uniform(random) + 0.5));
+      break;
+    case Kind::inside:
+      set_origin(random_direction(random) * 0.99 * std::cbrt(uniform(random))), starts_inside = true;
+      break;
+    case Kind::far_away:
+      set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * 1e6);
+      break;
     case Kind::tangential: {
       const double off = std::pow(10.0, -1.0 - 15.0 * uniform(random));
       set_origin(side * (uniform(random) < 0.5 ? 1.0 - off : 1.0 + off) - d * (1.5 + uniform(random)));
@@ -103,24 +112,31 @@ Ray make_ray(const Case& c, Kind kind, std::mt19937_64& random, bool& starts_ins
     case Kind::edge:
     case Kind::corner: {
       starts_inside = uniform(random) < 0.5;
-      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random), boundary_point(c.surface, random, kind == Kind::corner));
+      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random),
+          boundary_point(c.surface, random, kind == Kind::corner));
       break;
     }
     case Kind::singular: {
-      // Towards the corners and poles where tangents are parallel or vanish, missing them by 10^-1 to 10^-17 of the radius.
+      // Towards the corners and poles where tangents are parallel or vanish, missing them by 10^-1 to 10^-17
+      // of the radius.
       starts_inside = uniform(random) < 0.5;
       const dvec3 near = random_direction(random) * c.radius * std::pow(10.0, -1.0 - 16.0 * uniform(random));
-      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random), boundary_point(c.surface, random, true) + near);
+      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random),
+          boundary_point(c.surface, random, true) + near);
       break;
     }
-    case Kind::from_far_at_edge: aim(1e6, boundary_point(c.surface, random, uniform(random) < 0.5)); break;
-    case Kind::count: break;
+    case Kind::from_far_at_edge:
+      aim(1e6, boundary_point(c.surface, random, uniform(random) < 0.5));
+      break;
+    case Kind::count:
+      break;
   }
   return ray;
 }
 
 // `compare`: also whether `closest` and `occluded` tell what `all` does.
-void check_ray(const Case& c, const Tracer& tracer, Kind kind, bool compare, std::mt19937_64& random, Tally& tally) {
+void check_ray(const Case& c, const Tracer& tracer, Kind kind, bool compare, std::mt19937_64& random,
+               Tally& tally) {
   bool inside = false;
   const Ray ray = make_ray(c, kind, random, inside);
   const SphereReference exact = sphere_reference(ray.origin, ray.direction, c.center, c.radius);
@@ -128,14 +144,18 @@ void check_ray(const Case& c, const Tracer& tracer, Kind kind, bool compare, std
   ++tally.rays;
   tally.hits += static_cast<long>(all.size());
   const auto describe = [&] {
-    return fmt::format("{}, kind {}: o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}), clearance {:.3g} ulp, {} hits", c.name,
-                       static_cast<int>(kind), ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
-                       ray.direction.z, exact.clearance / ulp, all.size());
+    return fmt::format(
+        "{}, kind {}: o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}), clearance {:.3g} "
+        "ulp, {} hits",
+        c.name, static_cast<int>(kind), ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
+        ray.direction.y, ray.direction.z, exact.clearance / ulp, all.size());
   };
 
   if (compare) {
     const Hit closest = tracer.closest(ray);
-    const bool same_first = all.empty() ? !closest : (closest && closest.t == all.front().t && closest.patch == all.front().patch);
+    const bool same_first =
+        all.empty() ? !closest
+                    : (closest && closest.t == all.front().t && closest.patch == all.front().patch);
     if (!same_first || tracer.occluded(ray) != static_cast<bool>(closest)) ++tally.disagreements;
   }
 
@@ -153,7 +173,8 @@ void check_ray(const Case& c, const Tracer& tracer, Kind kind, bool compare, std
   }
   if (all.size() != expected) {
     ++tally.wrong_count;
-    if (std::fabs(exact.clearance) > tally.worst_clearance) tally.worst_clearance = std::fabs(exact.clearance), tally.worst_miss = describe();
+    if (std::fabs(exact.clearance) > tally.worst_clearance)
+      tally.worst_clearance = std::fabs(exact.clearance), tally.worst_miss = describe();
     return;
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -175,7 +196,8 @@ Tally check_case(const Case& c, Load load) {
           std::mt19937_64 random(static_cast<std::uint64_t>(b) + 1);
           const bool aimed = b >= random_blocks;
           for (long k = 0; k < block; ++k) {
-            const long kind = aimed ? random_kinds + k % (static_cast<long>(Kind::count) - random_kinds) : k % random_kinds;
+            const long kind =
+                aimed ? random_kinds + k % (static_cast<long>(Kind::count) - random_kinds) : k % random_kinds;
             check_ray(c, tracer, static_cast<Kind>(kind), aimed || k % 8 == 0, random, tally);
           }
         }
@@ -185,10 +207,13 @@ Tally check_case(const Case& c, Load load) {
 }
 
 void require_clean(const Tally& tally, const std::string& what) {
-  WARN(fmt::format("{}: {} rays, {} hits; within {:.0f} ulp of tangency {:.3g}% of the rays; worst | |p-c|/R - 1 | {:.2g} ulp; worst t "
-                   "{:.2g} of its tolerance",
-                   what, tally.rays, tally.hits, band / ulp, 100.0 * static_cast<double>(tally.in_band) / static_cast<double>(tally.rays),
-                   tally.position.error() / ulp, tally.t.ratio()));
+  WARN(
+      fmt::format("{}: {} rays, {} hits; within {:.0f} ulp of tangency {:.3g}% of the rays; worst | |p-c|/R "
+                  "- 1 | {:.2g} ulp; worst t "
+                  "{:.2g} of its tolerance",
+                  what, tally.rays, tally.hits, band / ulp,
+                  100.0 * static_cast<double>(tally.in_band) / static_cast<double>(tally.rays),
+                  tally.position.error() / ulp, tally.t.ratio()));
   INFO("wrong count of hits: " << tally.wrong_count << "; the furthest from tangency: " << tally.worst_miss);
   INFO("position: " << tally.position.text());
   INFO("t: " << tally.t.text());
@@ -200,7 +225,8 @@ void require_clean(const Tally& tally, const std::string& what) {
   CHECK(tally.hits > tally.rays / 2);
 }
 
-// Rays for one of the default run: a hundred in a soak, a twentieth under the sanitizers, which are that much slower.
+// Rays for one of the default run: a hundred in a soak, a twentieth under the sanitizers, which are that much
+// slower.
 double effort() {
 #ifdef __SANITIZE_ADDRESS__
   return 0.05;
@@ -209,7 +235,9 @@ double effort() {
 #endif
 }
 
-Load load(double random, double aimed) { return {static_cast<long>(random * effort()), static_cast<long>(aimed * effort())}; }
+Load load(double random, double aimed) {
+  return {static_cast<long>(random * effort()), static_cast<long>(aimed * effort())};
+}
 
 std::vector<std::pair<const char*, Surface>> closed_families() {
   return {{"cube", family_surface(R"({"type": "sphere_tiling", "topology": "cube"})")},
@@ -228,7 +256,8 @@ TEST_CASE("Newton finds every hit of the analytic sphere on the closed families,
     // 10^-4 to 10^4, at the origin and beside it.
     for (const double radius : {1e-4, 0.37, 1e4})
       for (const dvec3& center : {dvec3(0.0), radius * dvec3(3.1, -2.7, 10.3)})
-        tally.merge(check_case({name, placed(surface, radius, center), Solver::newton, radius, center}, elsewhere));
+        tally.merge(
+            check_case({name, placed(surface, radius, center), Solver::newton, radius, center}, elsewhere));
     require_clean(tally, std::string("newton, ") + name);
   }
   CHECK(static_cast<double>(random) >= 10'000'000 * effort());
@@ -246,6 +275,7 @@ TEST_CASE("The analytic sphere passes the same test", "[hits]") {
   const Case c{"sphere", closed_families()[0].second, Solver::newton, 1.0, dvec3(0.0)};
   Tally tally;
   std::mt19937_64 random(5);
-  for (long k = 0; k < 200'000; ++k) check_ray(c, tracer, static_cast<Kind>(k % static_cast<long>(Kind::count)), true, random, tally);
+  for (long k = 0; k < 200'000; ++k)
+    check_ray(c, tracer, static_cast<Kind>(k % static_cast<long>(Kind::count)), true, random, tally);
   require_clean(tally, "sphere");
 }

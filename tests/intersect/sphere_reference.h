@@ -1,5 +1,5 @@
-// Where a ray with double coordinates meets a sphere, in quadruple precision: 113 bits, so that even from 10^8 radii away the
-// impact parameter is good to 10^-17 of a radius.
+// Where a ray with double coordinates meets a sphere, in quadruple precision: 113 bits, so that even from
+// 10^8 radii away the impact parameter is good to 10^-17 of a radius.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,13 @@
 namespace rondure {
 
 struct SphereReference {
-  double clearance;   // impact parameter / radius - 1: negative when the line meets the sphere
-  double t[2];        // entry and exit, when it does
-  double cosine;      // of the angle of incidence
+  double clearance;  // impact parameter / radius - 1: negative when the line meets the sphere
+  double t[2];       // entry and exit, when it does
+  double cosine;     // of the angle of incidence
 };
 
-inline SphereReference sphere_reference(const dvec3& origin, const dvec3& direction, const dvec3& center, double radius) {
+inline SphereReference sphere_reference(const dvec3& origin, const dvec3& direction, const dvec3& center,
+                                        double radius) {
   using Quad = __float128;
   Quad d[3], q[3], dd = 0, qd = 0;
   for (int k = 0; k < 3; ++k) {
@@ -29,8 +30,10 @@ inline SphereReference sphere_reference(const dvec3& origin, const dvec3& direct
   const Quad r2 = static_cast<Quad>(radius) * static_cast<Quad>(radius);
   SphereReference out{};
   out.clearance = std::sqrt(static_cast<double>(impact2 / r2)) - 1.0;
-  // Near tangency the square root's rounding is too coarse; (b^2 - r^2) / (r^2 (b / r + 1)) is exact to an ulp of itself.
-  if (std::fabs(out.clearance) < 1e-3) out.clearance = static_cast<double>((impact2 - r2) / r2) / (2.0 + out.clearance);
+  // Near tangency the square root's rounding is too coarse; (b^2 - r^2) / (r^2 (b / r + 1)) is exact to an
+  // ulp of itself.
+  if (std::fabs(out.clearance) < 1e-3)
+    out.clearance = static_cast<double>((impact2 - r2) / r2) / (2.0 + out.clearance);
   if (impact2 < r2) {
     const double half = std::sqrt(static_cast<double>((r2 - impact2) / dd));
     for (int k = 0; k < 2; ++k) {
