@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include "renderer/bezier/tensor.h"
@@ -58,15 +59,24 @@ struct TensorShape {
     tensor_restrict(patch, m, n, c.low.x, c.high.x, c.low.y, c.high.y, out);
   }
 
-  // Halves the cell across a (or b); `low` and `high` receive the two nets.
+  // Which parameter (0: a, 1: b) moves the polynomials more; `da` and `db` are scratch of the net's size.
+  int steepest_edge(const dvec2* f, dvec2*, dvec2*) const {
+    double along_a = 0.0, along_b = 0.0;
+    for (int i = 0; i <= m; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const dvec2 p = f[i * (n + 1) + j], d = glm::abs(p - f[j]), e = glm::abs(p - f[i * (n + 1)]);
+        along_a = std::max({along_a, d.x, d.y});
+        along_b = std::max({along_b, e.x, e.y});
+      }
+    return along_a >= along_b ? 0 : 1;
+  }
+
+  // Halves the cell across a (edge 0) or b (edge 1); `low` and `high` receive the two nets.
   template <class T>
-  void halve(const T* f, const Cell& c, bool across_a, T* low, T* high, Cell& low_cell,
-             Cell& high_cell) const {
+  void halve(const T* f, const Cell& c, int edge, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
     low_cell = high_cell = c;
-    const int k = across_a ? 0 : 1;
-    const double middle = 0.5 * (c.low[k] + c.high[k]);
-    low_cell.high[k] = high_cell.low[k] = middle;
-    if (across_a)
+    low_cell.high[edge] = high_cell.low[edge] = 0.5 * (c.low[edge] + c.high[edge]);
+    if (edge == 0)
       tensor_halve_u(f, m, n, low, high);
     else
       tensor_halve_v(f, m, n, low, high);
@@ -118,21 +128,37 @@ struct TriangleShape {
     triangle_restrict(patch, n, c.corner, out);
   }
 
-  // Halves the cell's longest edge in the patch's domain: angles stay bounded however deep the search goes.
-  template <class T>
-  void halve(const T* f, const Cell& c, bool, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
+  // Edges: 0 from the corner a = 1 to b = 1, 1 on to a = b = 0, 2 back.
+  static int longest_edge(const Cell& c) {
     int longest = 0;
     double length2 = -1.0;
     for (int k = 0; k < 3; ++k) {
       const dvec2 e = c.corner[(k + 1) % 3] - c.corner[k];
       if (const double l = e.x * e.x + e.y * e.y; l > length2) length2 = l, longest = k;
     }
+    return longest;
+  }
+
+  // The edge along which the polynomials change most, from their derivatives.
+  int steepest_edge(const dvec2* f, dvec2* da, dvec2* db) const {
+    derive_a(f, da);
+    derive_b(f, db);
+    double change[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < derived_a().size(); ++k) {
+      const dvec2 along[3] = {glm::abs(db[k] - da[k]), glm::abs(db[k]), glm::abs(da[k])};
+      for (int j = 0; j < 3; ++j) change[j] = std::max({change[j], along[j].x, along[j].y});
+    }
+    return static_cast<int>(std::max_element(change, change + 3) - change);
+  }
+
+  template <class T>
+  void halve(const T* f, const Cell& c, int edge, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
     static constexpr dvec2 local[3] = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};
-    const int next = (longest + 1) % 3;
+    const int next = (edge + 1) % 3;
     dvec2 low_corner[3] = {local[0], local[1], local[2]}, high_corner[3] = {local[0], local[1], local[2]};
-    low_corner[next] = high_corner[longest] = 0.5 * (local[longest] + local[next]);
+    low_corner[next] = high_corner[edge] = 0.5 * (local[edge] + local[next]);
     low_cell = high_cell = c;
-    low_cell.corner[next] = high_cell.corner[longest] = 0.5 * (c.corner[longest] + c.corner[next]);
+    low_cell.corner[next] = high_cell.corner[edge] = 0.5 * (c.corner[edge] + c.corner[next]);
     triangle_restrict(f, n, low_corner, low);
     triangle_restrict(f, n, high_corner, high);
   }

@@ -54,7 +54,7 @@ class Search {
     std::size_t visited = 0;
     for (int level = 0; level >= 0;) {
       Frame<Shape>& frame = frames[level];
-      if (++visited > cell_limit) {
+      if (++visited > cell_limit || counts_.cells + visited > counts_.limit) {
         ++counts_.exhausted;
         break;
       }
@@ -249,30 +249,21 @@ class Search {
         s = shape_.first(patch_, p);
       }
     }
-    const double residual = std::max(std::fabs(s.value.x), std::fabs(s.value.y));
-    if (residual <= point_size * error_) roots_.push({p.x, p.y, tangent || residual > 0.25 * error_});
+    const auto size = [](dvec2 x) { return std::max(std::fabs(x.x), std::fabs(x.y)); };
+    const double residual = size(s.value);
+    // Half an ulp of each parameter moves the point by this much, on a steep patch by more than its rounding.
+    const double resolution = unit_roundoff * (size(s.du) + size(s.dv));
+    if (residual <= point_size * error_ + resolution)
+      roots_.push({p.x, p.y, tangent || residual > 0.25 * error_});
   }
 
   void halve(int level, Frame<Shape>* frames) {
     dvec2* f = net(level);
-    bool across_a = true;
-    if constexpr (std::is_same_v<Shape, TensorShape>) {
-      // The parameter along which the polynomials vary more.
-      double along_a = 0.0, along_b = 0.0;
-      const int m = shape_.m, n = shape_.n;
-      for (int i = 0; i <= m; ++i)
-        for (int j = 0; j <= n; ++j) {
-          const dvec2 p = f[i * (n + 1) + j];
-          const dvec2 d = glm::abs(p - f[j]), e = glm::abs(p - f[i * (n + 1)]);
-          along_a = std::max({along_a, d.x, d.y});
-          along_b = std::max({along_b, e.x, e.y});
-        }
-      across_a = along_a >= along_b;
-    }
+    const int edge = shape_.steepest_edge(f, work_->first[0].data(), work_->first[1].data());
     Frame<Shape> low, high;
     low.depth = high.depth = frames[level].depth + 1;
     dvec2* scratch = work_->turned.data();
-    shape_.halve(f, frames[level].cell, across_a, scratch, net(level + 1), low.cell, high.cell);
+    shape_.halve(f, frames[level].cell, edge, scratch, net(level + 1), low.cell, high.cell);
     std::copy(scratch, scratch + size_, f);
     frames[level] = low;
     frames[level + 1] = high;

@@ -12,6 +12,8 @@
 // Otherwise the cell is clipped, or halved.
 #pragma once
 
+#include <limits>
+
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/root.h"
 
@@ -19,7 +21,8 @@ namespace rondure {
 
 struct SearchCounts {
   std::size_t cells = 0;
-  std::size_t exhausted = 0;  // searches given up at the cell limit: roots may be missing
+  std::size_t exhausted = 0;  // searches given up at a limit: roots may be missing
+  std::size_t limit = std::numeric_limits<std::size_t>::max();  // of `cells`, for all searches together
 };
 
 // Roots in `cell` of the net `f` (degree from `shape`, coefficients over the whole patch), whose evaluation

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "renderer/bezier/rational.h"
 #include "renderer/intersect/leaf.h"
 
 namespace rondure {
@@ -90,6 +91,7 @@ class Builder {
     linearise(cell, leaf);
     const bool tame = positive && contraction_head_on(leaf) < target_contraction;
     if (tame || (positive && depth >= depth_)) {
+      some_tame_ = some_tame_ || tame;
       leaf.scale = scale_of(cell);
       out_.leaves.push_back(leaf);
       out_.boxes.push_back(box);
@@ -101,12 +103,18 @@ class Builder {
                       "finely the patch is divided, so that it cannot be bounded",
                       patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
     typename Shape::Cell low, high;
-    const bool across_a = glm::length(size_a_) >= glm::length(size_b_);
+    int edge;
+    if constexpr (std::is_same_v<Shape, TensorShape>)
+      edge = glm::length(size_a_) >= glm::length(size_b_) ? 0 : 1;
+    else
+      edge = Shape::longest_edge(cell);
     std::vector<dvec4> scratch(points_.size() * 2);
-    shape_.halve(points_.data(), cell, across_a, scratch.data(), scratch.data() + points_.size(), low, high);
+    shape_.halve(points_.data(), cell, edge, scratch.data(), scratch.data() + points_.size(), low, high);
     divide(low, depth + 1);
     divide(high, depth + 1);
   }
+
+  bool some_tame() const { return some_tame_; }
 
  private:
   const Shape shape_;
@@ -117,6 +125,7 @@ class Builder {
   std::vector<dvec4> magnitudes_;  // |P_ij|, componentwise
   std::vector<dvec4> points_, inner_;
   dvec3 size_a_{0.0}, size_b_{0.0};
+  bool some_tame_ = false;
 
   NetScale scale_of(const typename Shape::Cell& cell) {
     shape_.restrict_to(magnitudes_.data(), cell, inner_.data());
@@ -155,6 +164,16 @@ class Builder {
   }
 };
 
+// A patch without a normal anywhere is a curve or a point: every ray that meets it does so at no isolated
+// parameter.
+void check_area(const Net& net, int patch) {
+  for (const double u : {0.21, 0.47, 0.11})
+    for (const double v : {0.33, 0.07, 0.52})
+      if (unit_normal(net, u, v) != dvec3(0.0)) return;
+  throw std::runtime_error(
+      fmt::format("patch {}: has no area; its control points lie on a curve or in a point", patch));
+}
+
 void check_finite(const std::vector<dvec4>& points, int patch) {
   for (const dvec4& p : points)
     if (!is_finite(dvec3(p)) || !std::isfinite(p.w))
@@ -168,18 +187,18 @@ LeafSet build_leaves(const std::vector<Net>& patches, int max_depth) {
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const int patch = static_cast<int>(k);
     check_finite(points_of(patches[k]), patch);
-    if (const auto* tensor = std::get_if<TensorNet>(&patches[k])) {
-      if (std::max(tensor->m, tensor->n) > max_degree)
-        throw std::runtime_error(
-            fmt::format("patch {}: degree ({}, {}) is above {}", patch, tensor->m, tensor->n, max_degree));
-      Builder<TensorShape>({tensor->m, tensor->n}, tensor->points, patch, max_depth, out).divide({}, 0);
-    } else {
-      const auto& triangle = std::get<TriangleNet>(patches[k]);
-      if (triangle.n > max_degree)
-        throw std::runtime_error(
-            fmt::format("patch {}: degree {} is above {}", patch, triangle.n, max_degree));
-      Builder<TriangleShape>({triangle.n}, triangle.points, patch, max_depth, out).divide({}, 0);
-    }
+    const auto build = [&](auto shape, int degree, const std::vector<dvec4>& points) {
+      if (degree > max_degree)
+        throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, degree, max_degree));
+      Builder<decltype(shape)> builder(shape, points, patch, max_depth, out);
+      builder.divide({}, 0);
+      if (!builder.some_tame()) check_area(patches[k], patch);
+    };
+    if (const auto* tensor = std::get_if<TensorNet>(&patches[k]))
+      build(TensorShape{tensor->m, tensor->n}, std::max(tensor->m, tensor->n), tensor->points);
+    else
+      build(TriangleShape{std::get<TriangleNet>(patches[k]).n}, std::get<TriangleNet>(patches[k]).n,
+            points_of(patches[k]));
   }
   return out;
 }

@@ -25,6 +25,8 @@ struct CompiledSurface {
   dvec3 frame{0.0};
 };
 
+constexpr std::size_t cells_per_query = 1 << 15;
+
 enum class Mode { closest, any, all };
 
 // One ray's way through the hierarchy; lives on the stack of the query.
@@ -39,6 +41,7 @@ struct Query {
   unsigned local_surface = ~0u;
   bool local_valid = false;
   LocalRay local{};
+  dvec3 inverse_direction{0.0};
   Hit best{};
   int best_sign = 0;
   bool found = false;
@@ -75,12 +78,30 @@ bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, c
   return false;
 }
 
+// Slab test in double, with room for its own rounding and for roots that lie beside their leaf by rounding.
+bool meets_box(const Query& q, const Box& box) {
+  double enter = -INFINITY, leave = INFINITY;
+  for (int k = 0; k < 3; ++k) {
+    const double room =
+        1e-12 * (std::fabs(q.local.base[k]) + std::fmax(std::fabs(box.low[k]), std::fabs(box.high[k])) +
+                 (box.high[k] - box.low[k]));
+    double a = (box.low[k] - room - q.local.base[k]) * q.inverse_direction[k];
+    double b = (box.high[k] + room - q.local.base[k]) * q.inverse_direction[k];
+    if (a > b) std::swap(a, b);
+    // A NaN, from 0 times infinity, is passed over.
+    enter = a > enter ? a : enter;
+    leave = b < leave ? b : leave;
+  }
+  return enter <= leave;
+}
+
 bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far) noexcept {
   Query& q = *static_cast<Query*>(pointer);
   const CompiledSurface& compiled = (*q.compiled)[surface];
   if (q.local_surface != surface) {
     q.local_surface = surface;
     q.local_valid = make_local_ray(q.ray->origin, q.ray->direction, compiled.frame, q.local);
+    q.inverse_direction = 1.0 / q.local.direction;
   }
   if (!q.local_valid) return false;
 
@@ -97,11 +118,14 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   }
 
   const TracedSurface& traced = (*q.surfaces)[surface];
+  // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
+  // every ray by; in double the leaf's own box does not.
+  if (!meets_box(q, compiled.set.boxes[leaf_index])) return false;
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
   RootList roots;
   solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
-  const double error = settled_bound(leaf.scale, q.local);
+  const double rounding = settled_bound(leaf.scale, q.local);
   for (const Root& root : roots) {
     const FirstOrder<dvec4> s = net_first(net, root.u, root.v);
     const double w = s.value.w;
@@ -111,6 +135,8 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
     if (!(glm::length(normal) > 1e-6 * glm::length(xu) * glm::length(xv)))
       normal = unit_normal(net, root.u, root.v);
+    // The parameters' own resolution counts too, as it does in `settle`.
+    const double error = rounding + unit_roundoff * (largest(xu) + largest(xv));
     const Crossing c = make_crossing(q.local, x, normal, error / w, leaf.scale.position / w, root.tangent);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }
@@ -124,6 +150,7 @@ struct Tracer::Implementation {
   std::vector<CompiledSurface> compiled;
   dvec3 center{0.0};
   double radius = 0.0;
+  double unit = 1.0;  // power of two that brings the radius to [1, 2): what the hierarchy sees
   std::size_t leaf_count = 0;
   std::unique_ptr<EmbreeScene> embree;
 
@@ -131,19 +158,20 @@ struct Tracer::Implementation {
   bool enter(const Ray& ray, Query& q, dvec3& origin, dvec3& direction, double& far) const {
     LocalRay global;
     if (!embree || !make_local_ray(ray.origin, ray.direction, center, global)) return false;
-    const double b2 = glm::dot(global.base, global.base), r = radius * (1.0 + 1e-9);
-    if (b2 > r * r) return false;
+    const dvec3 base = global.base * unit;
+    const double b2 = glm::dot(base, base), r = radius * unit * (1.0 + 1e-9);
+    if (!(b2 <= r * r)) return false;
     const double half = std::sqrt((r * r - b2) / global.length2);
-    const double start = ray.t_min / global.scale - global.slide,
-                 end = ray.t_max / global.scale - global.slide;
+    const double start = (ray.t_min / global.scale - global.slide) * unit,
+                 end = (ray.t_max / global.scale - global.slide) * unit;
     // A start on a surface may lie an error bound behind the first root that counts.
     const double near = std::max(start - 1e-9 * half, -half);
     if (!(near <= half) || !(end >= near)) return false;
-    origin = global.base + near * global.direction;
+    origin = base + near * global.direction;
     direction = global.direction;
     far = std::min(half, end) - near;
-    q.far_origin = (global.slide + near) * global.scale;
-    q.far_scale = global.scale;
+    q.far_origin = (global.slide + near / unit) * global.scale;
+    q.far_scale = global.scale / unit;
     return true;
   }
 
@@ -162,6 +190,9 @@ struct Tracer::Implementation {
 
   Query make_query(const Ray& ray, Mode mode) const {
     Query q{};
+    // A net on which a ray takes this many cells is degenerate; it must not stop the program.
+    SearchCounts& search = thread_counts().search;
+    search.limit = search.cells + cells_per_query;
     q.surfaces = &surfaces, q.compiled = &compiled, q.ray = &ray, q.mode = mode;
     return q;
   }
@@ -171,6 +202,8 @@ namespace {
 
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
+// Beyond these, squares and products of coordinates leave the range of doubles.
+constexpr double smallest_scene = 1e-60, largest_scene = 1e60;
 constexpr int deepest = 11, shallowest = 2;
 
 CompiledSurface compile(const Surface& surface, int max_depth) {
@@ -221,14 +254,21 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   self.center = world.center();
   std::vector<std::vector<Box>> boxes(count);
   for (std::size_t k = 0; k < count; ++k) {
-    boxes[k].swap(self.compiled[k].set.boxes);
+    boxes[k] = self.compiled[k].set.boxes;
     const dvec3 shift = self.compiled[k].frame - self.center;
     for (Box& box : boxes[k]) {
       box.low += shift, box.high += shift;
-      self.radius = std::max(self.radius, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high))));
+      const dvec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
+      self.radius = std::max(self.radius, std::sqrt(3.0) * largest(corner));
     }
   }
-  self.embree = std::make_unique<EmbreeScene>(boxes, self.radius, visit_leaf);
+  if (!(self.radius >= smallest_scene && self.radius <= largest_scene))
+    throw std::runtime_error(fmt::format("the scene's radius, {:.3g}, must be between {:g} and {:g}",
+                                         self.radius, smallest_scene, largest_scene));
+  self.unit = std::ldexp(1.0, -std::ilogb(self.radius));
+  for (std::vector<Box>& set : boxes)
+    for (Box& box : set) box.low *= self.unit, box.high *= self.unit;
+  self.embree = std::make_unique<EmbreeScene>(boxes, self.radius * self.unit, visit_leaf);
 }
 
 Tracer::~Tracer() = default;
@@ -299,7 +339,7 @@ TracerStatistics Tracer::statistics() const {
     s.patches += self.surfaces[k].surface.patches.size();
     for (const Net& net : self.surfaces[k].surface.patches)
       s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
-    s.bytes += self.compiled[k].set.leaves.size() * sizeof(Leaf);
+    s.bytes += self.compiled[k].set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
   }
   if (self.embree) s.bytes += self.embree->bytes();
   return s;

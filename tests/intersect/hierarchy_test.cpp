@@ -55,7 +55,8 @@ std::vector<double> brute_force(const std::vector<TracedSurface>& surfaces, cons
     for (const Leaf& leaf : sets[k].leaves) {
       const Net& net = surfaces[k].surface.patches[static_cast<std::size_t>(leaf.patch)];
       RootList roots;
-      solve_leaf(Solver::newton, leaf, net, local, roots, thread_counts());
+      SolverCounts counts;
+      solve_leaf(Solver::newton, leaf, net, local, roots, counts);
       for (const Root& root : roots) {
         const dvec3 point = net_point(net, root.u, root.v);
         const double t =
