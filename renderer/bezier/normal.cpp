@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -47,19 +48,24 @@ dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
   return sum;
 }
 
+double largest_component(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
 dvec3 unit_or_zero(const dvec3& n) {
   // Scaled first: close to a singular point of high order the square of the length would underflow.
-  const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+  const double largest = largest_component(n);
   if (!(largest > 0.0) || !std::isfinite(largest)) return dvec3(0.0);
   return glm::normalize(n / largest);
 }
 
-// The largest distance of a control point from the surface point at hand, weights included: the scale against
-// which a tangent is short.
+// The largest coordinate difference of a control point from the surface point at hand, weights included: the
+// scale against which a tangent is short. Zero where it is only the rounding of the control points.
 double spread(const Net& net, const dvec3& point) {
-  double largest = 0.0;
-  for (const dvec4& p : points_of(net)) largest = std::max(largest, glm::length(dvec3(p) - p.w * point));
-  return largest;
+  double largest = 0.0, rounding = 0.0;
+  for (const dvec4& p : points_of(net)) {
+    largest = std::max(largest, largest_component(dvec3(p) - p.w * point));
+    rounding = std::max(rounding, 8.0 * epsilon * largest_component(dvec3(p)));
+  }
+  return largest > rounding ? largest : 0.0;
 }
 
 struct Tangents {
@@ -71,6 +77,16 @@ Tangents tangents(const FirstOrder<dvec4>& f) {
   return {p, dvec3(f.du) - f.du.w * p, dvec3(f.dv) - f.dv.w * p};
 }
 
+// The size of the coordinates that the tangents are sums of, from the surface point and three control points
+// far from one another: looking at all would take as long as the evaluation. The first and last are corners.
+double magnitude(const Net& net, const FirstOrder<dvec4>& f) {
+  const std::vector<dvec4>& points = points_of(net);
+  const dvec4 ends = glm::max(glm::abs(points.front()), glm::abs(points.back()));
+  const dvec4 inner = glm::max(glm::abs(points[points.size() / 2]), glm::abs(f.value));
+  const dvec4 largest = glm::max(ends, inner);
+  return largest.x + largest.y + largest.z;
+}
+
 int degree_of(const Net& net) {
   if (const auto* t = std::get_if<TensorNet>(&net)) return std::max(t->m, t->n);
   return std::get<TriangleNet>(net).n;
@@ -78,18 +94,31 @@ int degree_of(const Net& net) {
 
 constexpr double singular = 1e-4;
 
+// The cross product of the tangents in units of the net's spread, in which it neither overflows nor
+// underflows.
+dvec3 relative_cross(const Tangents& t, double scale) { return glm::cross(t.a / scale, t.b / scale); }
+
+// The squares of lengths between these are neither subnormal nor infinite.
+constexpr double shortest = 1e-145, longest = 1e150;
+
 }  // namespace
 
 dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f) {
   const Tangents t = tangents(f);
   const dvec3 n = glm::cross(t.a, t.b);
   const double size = glm::length(n);
-  // Rounding turns the cross product by about (error of a) |b| / |n| + |a| (error of b) / |n|.
-  const double noise = 8.0 * epsilon * (1.0 + glm::length(t.point)) * glm::length(f.value) * degree_of(net);
-  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-11 * size) return n / size;
+  // Rounding turns the cross product by about (error of a) |b| / |n| + |a| (error of b) / |n|. The tangents
+  // are sums of control points, so their errors are relative to those, whatever the unit of length. The
+  // comparison with `shortest` is what excludes tangents of length zero, where both sides would be zero.
+  const double noise = 8.0 * epsilon * degree_of(net) * magnitude(net, f);
+  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-11 * size && size > shortest && size < longest) {
+    return n / size;
+  }
   const double scale = spread(net, t.point);
-  if (size > singular * scale * scale) return n / size;
-  const NormalPolynomial polynomial = normal_polynomial(net);
+  if (scale == 0.0) return dvec3(0.0);
+  const dvec3 relative = relative_cross(t, scale);
+  if (glm::length(relative) > singular) return glm::normalize(relative);
+  const NormalPolynomial polynomial = normal_directions(net);
   const dvec3 limit = std::visit([&](const auto& p) { return value_inside(p, u, v); }, polynomial);
   return unit_or_zero(f.value.w < 0.0 ? -limit : limit);
 }
@@ -99,7 +128,7 @@ dvec3 unit_normal(const Net& net, double u, double v) { return unit_normal(net, 
 Curvature curvature(const Net& net, double u, double v) {
   const Tangents t = tangents(net_first(net, u, v));
   const double scale = spread(net, t.point);
-  if (!(glm::length(glm::cross(t.a, t.b)) > singular * scale * scale)) {
+  if (!(glm::length(relative_cross(t, scale)) > singular)) {
     constexpr double step = 1e-4;
     if (std::holds_alternative<TensorNet>(net)) {
       u = std::clamp(u, step, 1.0 - step);
@@ -135,7 +164,7 @@ NormalCone cone_of(const dvec3* vectors, std::size_t count) {
 }
 
 NormalCone normal_cone(const Net& net) {
-  const NormalPolynomial polynomial = normal_polynomial(net);
+  const NormalPolynomial polynomial = normal_directions(net);
   NormalCone cone = std::visit(
       [](const auto& p) { return cone_of(p.coefficients.data(), p.coefficients.size()); }, polynomial);
   // N carries the sign of w^3.

@@ -12,6 +12,10 @@ namespace rondure {
 using NormalPolynomial = std::variant<TensorPolynomial<dvec3>, TrianglePolynomial<dvec3>>;
 NormalPolynomial normal_polynomial(const Net& net);
 
+// The same times a positive power of two that makes its size that of a net of size 1, so that it neither
+// overflows nor underflows, whatever the unit of length and of weight.
+NormalPolynomial normal_directions(const Net& net);
+
 // Every normal of the patch makes at most the angle acos(cos_angle) with `axis` (unit). cos_angle = -1: no
 // bound.
 struct NormalCone {

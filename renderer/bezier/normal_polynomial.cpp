@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -48,8 +50,70 @@ double largest_norm(const std::vector<dvec4>& points) {
   return largest;
 }
 
-// A coefficient sums products of three control points; its rounding error stays below some tens of eps times
-// their size. What is smaller carries no direction.
+double largest_coordinate(const std::vector<dvec4>& points) {
+  dvec3 largest(0.0);
+  for (const dvec4& p : points) largest = glm::max(largest, glm::abs(dvec3(p)));
+  return std::max({largest.x, largest.y, largest.z});
+}
+
+// The exponent e for which 2^-e x is in [1, 2); 0 where there is none.
+int exponent_of(double x) { return x > 0.0 && std::isfinite(x) ? std::ilogb(x) : 0; }
+
+void scale_by_exponents(std::vector<dvec4>& points, int space, int weight) {
+  for (dvec4& p : points) {
+    for (int c = 0; c < 3; ++c) p[c] = std::ldexp(p[c], -space);
+    p.w = std::ldexp(p.w, -weight);
+  }
+}
+
+// The mean of the points, rounded to a quarter of the net's extent at most: of few bits, so that moving a net
+// by it rounds little, and zero for one about the origin. Zero too where the weights cancel.
+dvec3 coarse_centre(const std::vector<dvec4>& points) {
+  dvec4 sum(0.0);
+  double weights = 0.0;
+  for (const dvec4& p : points) {
+    sum += p;
+    weights += std::abs(p.w);
+  }
+  if (!(std::abs(sum.w) > 0x1p-10 * weights)) return dvec3(0.0);
+  const dvec3 mean = dvec3(sum) / sum.w;
+  double extent = 0.0;
+  for (const dvec4& p : points) extent = std::max(extent, glm::length(dvec3(p) - p.w * mean));
+  if (!(extent > 0.0)) return mean;
+  const double grid = std::ldexp(1.0, exponent_of(extent) - 1);
+  return glm::round(mean / grid) * grid;
+}
+
+// A net in a frame of its own: N has the same directions there, but no unit of length and no distance from
+// the origin are left that its rounding errors could be mistaken for.
+struct Framed {
+  Net net;           // the largest coordinate and the largest weight are in [1, 2)
+  double error;      // of a coordinate, from the rounding of the given net: epsilon, more for one far away
+  int exponent = 0;  // the given net has 2^exponent times the N of this one
+};
+
+Framed framed(const Net& given) {
+  Framed f{given, epsilon, 0};
+  std::vector<dvec4>& points = points_of(f.net);
+  double weight = 0.0;
+  for (const dvec4& p : points) weight = std::max(weight, std::abs(p.w));
+  const int weight_exponent = exponent_of(weight);
+  const int given_exponent = exponent_of(largest_coordinate(points));
+  scale_by_exponents(points, given_exponent, weight_exponent);
+  const dvec3 centre = coarse_centre(points);
+  const double far = largest_coordinate(points);
+  for (dvec4& p : points) p -= dvec4(p.w * centre, 0.0);
+  const double near = largest_coordinate(points);
+  const int near_exponent = exponent_of(near);
+  scale_by_exponents(points, near_exponent, 0);
+  if (near > 0.0) f.error = epsilon * std::max(1.0, far / near);
+  // Every term of N has one weight and two coordinates.
+  f.exponent = weight_exponent + 2 * (given_exponent + near_exponent);
+  return f;
+}
+
+// A coefficient sums products of three control points; its rounding error stays below some tens of times that
+// of a point. What is smaller carries no direction.
 void flush_noise(std::vector<dvec3>& normals, double bound) {
   for (dvec3& n : normals) {
     if (!(glm::length(n) > bound)) n = dvec3(0.0);
@@ -67,7 +131,7 @@ TensorPolynomial<dvec4> corner_net(const TensorNet& net, int a, int b) {
 
 // N = m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the wedge
 // product of the sub-nets F_ab.
-TensorPolynomial<dvec3> tensor_normals(const TensorNet& net) {
+TensorPolynomial<dvec3> tensor_normals(const TensorNet& net, double error) {
   if (net.m < 1 || net.n < 1) return {};
   const auto f00 = corner_net(net, 0, 0);
   const auto f10 = corner_net(net, 1, 0);
@@ -86,7 +150,7 @@ TensorPolynomial<dvec3> tensor_normals(const TensorNet& net) {
     }
   }
   const double size = largest_norm(net.points);
-  flush_noise(normals.coefficients, 64.0 * epsilon * net.m * net.n * size * size * size);
+  flush_noise(normals.coefficients, 64.0 * error * net.m * net.n * size * size * size);
   return normals;
 }
 
@@ -98,22 +162,37 @@ TrianglePolynomial<dvec4> corner_net(const TriangleNet& net, int a, int b) {
   return sub;
 }
 
-TrianglePolynomial<dvec3> triangle_normals(const TriangleNet& net) {
+TrianglePolynomial<dvec3> triangle_normals(const TriangleNet& net, double error) {
   if (net.n < 1) return {};
   const auto lines = multiply(corner_net(net, 0, 1), corner_net(net, 0, 0), join);
   TrianglePolynomial<dvec3> normals = multiply(corner_net(net, 1, 0), lines, join_plane);
   const double square = static_cast<double>(net.n * net.n);
   for (dvec3& n : normals.coefficients) n *= square;
   const double size = largest_norm(net.points);
-  flush_noise(normals.coefficients, 64.0 * epsilon * square * size * size * size);
+  flush_noise(normals.coefficients, 64.0 * error * square * size * size * size);
   return normals;
+}
+
+NormalPolynomial normals_of(const Framed& f) {
+  if (const auto* t = std::get_if<TensorNet>(&f.net)) return tensor_normals(*t, f.error);
+  return triangle_normals(std::get<TriangleNet>(f.net), f.error);
 }
 
 }  // namespace
 
+NormalPolynomial normal_directions(const Net& net) { return normals_of(framed(net)); }
+
 NormalPolynomial normal_polynomial(const Net& net) {
-  if (const auto* t = std::get_if<TensorNet>(&net)) return tensor_normals(*t);
-  return triangle_normals(std::get<TriangleNet>(net));
+  const Framed f = framed(net);
+  NormalPolynomial normals = normals_of(f);
+  std::visit(
+      [&](auto& p) {
+        for (dvec3& n : p.coefficients) {
+          for (int c = 0; c < 3; ++c) n[c] = std::ldexp(n[c], f.exponent);
+        }
+      },
+      normals);
+  return normals;
 }
 
 }  // namespace rondure

@@ -110,11 +110,14 @@ TEST_CASE("limit normals survive an affine map and a change of scale", "[bezier]
   REQUIRE(worst.failures() == 0);
 }
 
-TEST_CASE("a net with every sign turned is the same surface, with the same normals", "[bezier][normal]") {
-  Net net = hemisphere();
-  for (dvec4& p : points_of(net)) p = -p;
-  for (const double t : {0.0, 1e-9, 1e-3, 0.4}) {
-    CHECK(angle(unit_normal(net, t, 0.0), unit_normal(hemisphere(), t, 0.0)) < 1e-15);
+TEST_CASE("a net times any factor is the same surface, with the same normals", "[bezier][normal]") {
+  for (const double factor : {-1.0, 0x1p-330, 0x1p330}) {
+    Net net = hemisphere();
+    for (dvec4& p : points_of(net)) p *= factor;
+    for (const double t : {0.0, 1e-9, 1e-3, 0.4}) {
+      // A product of tangents that would underflow or overflow is rounded in other units: by some eps.
+      CHECK(angle(unit_normal(net, t, 0.0), unit_normal(hemisphere(), t, 0.0)) < 1e-14);
+    }
   }
 }
 
@@ -144,6 +147,92 @@ TEST_CASE("corners with parallel tangents have the limit of the inner normals", 
   }
   INFO(worst.text());
   REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("the octant has its normals at any radius", "[bezier][normal]") {
+  WorstCase worst;
+  for (const double radius : {1e-300, 1e-100, 1e-12, 1e-7, 1.0, 1e14, 1e100, 1e300}) {
+    for (const double side : {1.0, -1.0}) {
+      dmat4 mirror(1.0);
+      mirror[2][2] = side;
+      Net net = transformed(octant(), mirror);
+      for (dvec4& p : points_of(net)) p = dvec4(radius * dvec3(p), p.w);
+      for (const double distance : {0.0, 1e-17, 1e-9, 1e-5, 0.01, 0.5}) {
+        for (const double u : {0.0, 0.3, 1.0}) {
+          const dvec3 expected = glm::normalize(net_point(net, u, 1.0 - distance) / radius);
+          const double error = angle(unit_normal(net, u, 1.0 - distance), expected);
+          worst.add(error, sphere_tolerance,
+                    [&] { return fmt::format("radius {}, ({}, 1 - {}): {}", radius, u, distance, error); });
+        }
+      }
+      CHECK(glm::length(unit_normal(net, 0.3, 1.0) - dvec3(0.0, 0.0, side)) < 1e-10);
+      const NormalCone cone = normal_cone(net);
+      // The normals of an octant are within acos(1 / sqrt(3)) of its middle; the coefficients go further.
+      CHECK(cone.cos_angle > 0.4);
+      CHECK(angle(cone.axis, dvec3(1.0, 1.0, side) / std::sqrt(3.0)) < 0.2);
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("the octant far from its frame's zero keeps the normal at the pole", "[bezier][normal]") {
+  WorstCase worst;
+  for (const double offset : {1e2, 1e4, 1e5, 1e6}) {
+    for (const double radius : {1e-7, 1.0, 1e14}) {
+      dmat4 map(radius);
+      map[3] = dvec4(radius * offset * dvec3(1.0, -0.7, 0.9), 1.0);
+      const Net net = transformed(octant(), map);
+      for (const double u : {0.0, 0.3, 0.5, 1.0}) {
+        // Rounding moves the control points by eps/2 offset radii. The row of coefficients that gives the
+        // normal has products of one such error with two coordinates of size 1, some tens of them over a
+        // value of about 1: 1e-8 at 1e6 is 90 of those errors.
+        const double error = glm::length(unit_normal(net, u, 1.0) - dvec3(0.0, 0.0, 1.0));
+        worst.add(error, 1e-14 * offset,
+                  [&] { return fmt::format("offset {}, radius {}, u {}: {}", offset, radius, u, error); });
+      }
+    }
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("a corner where both tangents vanish has the limit along the diagonal", "[bezier][normal]") {
+  NetMaker make(14);
+  WorstCase worst;
+  for (int k = 0; k < 40; ++k) {
+    const bool triangle = k % 2 == 1;
+    Net net = triangle ? Net(make.triangle(3)) : Net(make.tensor(2 + k % 3, 2 + k % 4));
+    dvec4* p = points_of(net).data();
+    // At the frame's zero, where even the point vanishes, and elsewhere.
+    if (k % 4 < 2) p[0] = dvec4(0.0, 0.0, 0.0, 1.0);
+    p[1] = p[0];
+    p[triangle ? triangle_index(3, 1, 0) : std::get<TensorNet>(net).n + 1] = p[0];
+    const dvec3 corner = unit_normal(net, 0.0, 0.0);
+    // The limit depends on the direction; along the diagonal what is next to it is of relative size 1e-6,
+    // times the ratio of the coefficients.
+    const double error = glm::length(corner - unit_normal(net, 1e-6, 1e-6));
+    worst.add(error, 1e-4, [&] { return fmt::format("net {}: {}", k, error); });
+    const oracle::Big tiny("1e-12");
+    const double exact = glm::length(corner - oracle::normal(net, tiny, tiny));
+    worst.add(exact, 1e-9, [&] { return fmt::format("net {}, against 50 digits: {}", k, exact); });
+  }
+  INFO(worst.text());
+  REQUIRE(worst.failures() == 0);
+}
+
+TEST_CASE("a net collapsed to one point has the normal zero", "[bezier][normal]") {
+  NetMaker make(15);
+  for (const dvec3& at :
+       {dvec3(0.0), dvec3(1.0, -2.0, 0.3), dvec3(1e9, 0.1, 7e8), dvec3(0.0, 3e-200, 1e-200)}) {
+    // Weights that differ, so that the products with the point are rounded differently too.
+    for (Net net : {Net(make.tensor(2, 3)), Net(make.triangle(3)), Net(make.triangle(1))}) {
+      for (dvec4& p : points_of(net)) p = dvec4(p.w * at, p.w);
+      for (const double u : {0.0, 0.3, 1.0}) CHECK(unit_normal(net, u, 0.0) == dvec3(0.0));
+      CHECK(unit_normal(net, 0.2, 0.4) == dvec3(0.0));
+      CHECK(normal_cone(net).cos_angle == -1.0);
+    }
+  }
 }
 
 TEST_CASE("a patch without area has no normal", "[bezier][normal]") {
