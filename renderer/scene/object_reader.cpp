@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "renderer/api/utf8.h"
@@ -36,14 +35,14 @@ void place_projective(Surface& surface, const Placement& placement) {
     for (int j = 0; j < 4; ++j) map[j] -= dvec4(surface.origin * map[j].w, 0.0);
     map[3] = dvec4(0.0, 0.0, 0.0, map[3].w);
   }
-  for (Net& net : surface.patches) {
-    net = transformed(net, map);
-    // Homogeneous points may change sign together, and solvers want positive weights.
-    std::vector<dvec4>& points = points_of(net);
-    if (std::all_of(points.begin(), points.end(), [](const dvec4& p) { return p.w < 0.0; })) {
-      for (dvec4& p : points) p = -p;
-    }
-  }
+  for (Net& net : surface.patches) net = transformed(net, map);
+}
+
+// Homogeneous points may change sign together: the surface is the same, and solvers want positive weights.
+void make_corner_positive(Net& net) {
+  std::vector<dvec4>& points = points_of(net);
+  if (points.front().w >= 0.0) return;
+  for (dvec4& p : points) p = -p;
 }
 
 int read_material_name(Params& params, const std::map<std::string, int>& materials) {
@@ -65,6 +64,7 @@ void place(Surface& surface, const Placement& placement) {
   } else {
     place_projective(surface, placement);
   }
+  for (Net& net : surface.patches) make_corner_positive(net);
 }
 
 SceneObject read_object(Params& params, const Registry& registry,

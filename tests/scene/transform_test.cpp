@@ -118,6 +118,23 @@ TEST_CASE("normals point outward after a reflection", "[scene]") {
   }
 }
 
+TEST_CASE("a net whose corner has a negative weight is negated as a whole", "[scene]") {
+  const auto square = [](const char* net, const char* transform) {
+    return surface_of(fmt::format(R"({{"type": "bezier", "transform": {}, "patches": [{{"kind": "tensor",
+                                      "degree": [1, 1], "net": {}}}]}})",
+                                  transform, net));
+  };
+  const char* net = "[[[0,0,0,-1],[0,-1,0,-2]],[[-1,0,0,-1],[1,1,0,0.5]]]";
+  const char* negated = "[[[0,0,0,1],[0,1,0,2]],[[1,0,0,1],[-1,-1,0,-0.5]]]";
+  for (const char* transform :
+       {"[]", "[{\"scale\": [1, 2, 3]}]", "[[1,0,0,3],[0,2,0,0],[0,0,1,4],[0.25,0,0,1]]"}) {
+    CAPTURE(transform);
+    const Surface surface = square(net, transform);
+    CHECK(points_of(surface.patches[0]).front().w == 1.0);
+    CHECK(same_nets(surface, square(negated, transform)));
+  }
+}
+
 TEST_CASE("a projective transform maps the points that it should", "[scene]") {
   const Surface plain = surface_of("{" + cube + "}");
   const Surface placed = surface_of("{" + cube +
