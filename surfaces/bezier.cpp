@@ -145,6 +145,16 @@ bool read_patches(Params& params, Surface& surface) {
   return params.boolean("closed", false);
 }
 
+// A file that cannot be read is a mistake of the scene, where it is named; one in the file is shown there.
+Document read_file(Params& params) {
+  try {
+    return read_json_file(params.path("file"));
+  } catch (const SceneError& error) {
+    if (error.where().line > 0) throw;
+    params.fail("file", error.what());
+  }
+}
+
 Surface build(Params& params) {
   Surface surface;
   if (!params.has("file")) {
@@ -153,7 +163,7 @@ Surface build(Params& params) {
   }
   if (params.has("patches")) params.fail("patches", "give either \"patches\" or \"file\", not both");
   const bool closed_here = params.boolean("closed", false);
-  const Document document = read_json_file(params.path("file"));
+  const Document document = read_file(params);
   Params inside(document.root, document.source.get(), "the file");
   surface.closed = read_patches(inside, surface) || closed_here;
   inside.finish();
