@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -26,10 +28,10 @@ std::string_view trimmed(std::string_view text) {
 }
 
 // Reads a line without ever holding more than `longest_line` of it.
-bool read_line(std::istream& in, std::string& line) {
+bool read_line(std::FILE* in, std::string& line) {
   line.clear();
   int c;
-  while ((c = in.get()) != std::istream::traits_type::eof()) {
+  while ((c = getc_unlocked(in)) != EOF) {
     if (c == '\n') return true;
     line.push_back(static_cast<char>(c));
     if (line.size() > longest_line) return true;
@@ -52,13 +54,14 @@ CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns, 
     : name_(path == "-" ? "standard input" : path),
       columns_(std::move(columns)),
       required_(required),
-      in_(&std::cin) {
+      file_(nullptr, &std::fclose),
+      in_(stdin) {
   if (path == "-") return;
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(fmt::format("{}: is a folder, not a file", path));
-  file_.open(path, std::ios::binary);
+  file_.reset(std::fopen(path.c_str(), "rb"));
   if (!file_) throw std::runtime_error(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  in_ = &file_;
+  in_ = file_.get();
 }
 
 void CsvReader::fail_at(std::size_t byte, const std::string& message) const {
@@ -83,11 +86,13 @@ bool CsvReader::is_header() const {
 
 bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
   for (;;) {
-    if (!read_line(*in_, line_)) {
-      if (in_->bad())
-        throw std::runtime_error(fmt::format("{}: reading failed after line {}", name_, line_number_));
-      return false;
+    errno = 0;
+    const bool more = read_line(in_, line_);
+    if (std::ferror(in_)) {
+      throw std::runtime_error(
+          fmt::format("{}: reading failed after line {}: {}", name_, line_number_, std::strerror(errno)));
     }
+    if (!more) return false;
     ++line_number_;
     if (line_number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // a byte order mark
     if (blank(line_)) continue;

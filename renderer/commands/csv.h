@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <iosfwd>
 #include <memory>
@@ -11,7 +12,8 @@
 namespace rondure {
 
 // Rows of numbers. A first line of column names is optional, but must be `columns` if it is there; blank
-// lines are skipped. Errors are std::runtime_errors with file, line, column, the line and a caret.
+// lines are skipped. Errors are std::runtime_errors with file, line, column, the line and a caret; a failure
+// to read is one, and no end.
 class CsvReader {
  public:
   // `path`: a file, or "-" for standard input. Rows have all `columns`, or the first `required` of them.
@@ -26,8 +28,8 @@ class CsvReader {
   std::string name_;
   std::vector<std::string> columns_;
   std::size_t required_;
-  std::ifstream file_;
-  std::istream* in_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;  // none for standard input
+  std::FILE* in_;
   std::string line_;
   std::int64_t line_number_ = 0;
   bool first_ = true;

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "tests/catch.h"
 #include "tests/commands/command_files.h"
+#include "tests/paths.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -146,6 +148,17 @@ TEST_CASE("trace points at what is wrong with a table", "[command]") {
   CHECK(trace(folder, {"--rays", "nowhere.csv"}).err ==
         "rondure: error: nowhere.csv: cannot be opened: No such file or directory\n");
   CHECK(trace(folder, {"--rays", "."}).err == "rondure: error: .: is a folder, not a file\n");
+  // Standard input that cannot be read is no empty table.
+  for (const auto& [place, reason] :
+       {std::pair{"< .", "Is a directory"}, std::pair{"<&-", "Bad file descriptor"}}) {
+    ProcessOptions options;
+    options.folder = folder;
+    const std::string command = std::string("exec \"$0\" trace scene.json --rays - ") + place;
+    const ProcessResult result = run_process({"/bin/sh", "-c", command, program_path()}, options);
+    CHECK(result.exit_code == 1);
+    CHECK(result.err ==
+          std::string("rondure: error: standard input: reading failed after line 0: ") + reason + "\n");
+  }
 }
 
 }  // namespace rondure
