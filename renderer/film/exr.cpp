@@ -15,6 +15,8 @@
 
 #include <array>
 #include <fstream>
+#include <glm/common.hpp>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -32,7 +34,8 @@ constexpr std::size_t channels = names.size();
 
 std::array<double, channels> values_at(const Film& film, int x, int y) {
   const FilmSample m = film.mean(x, y);
-  const dvec3 v = film.variance(x, y);
+  // Of radiances that a float holds the variance may be more.
+  const dvec3 v = glm::min(film.variance(x, y), dvec3(std::numeric_limits<float>::max()));
   const PixelGeometry& g = film.geometry[film.index(x, y)];
   return {m.color.x,       m.color.y,         m.color.z,  m.alpha,    m.albedo.x, m.albedo.y, m.albedo.z,
           g.depth,         m.normal.x,        m.normal.y, m.normal.z, g.point.x,  g.point.y,  g.point.z,

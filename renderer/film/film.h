@@ -70,7 +70,7 @@ class Film {
   std::vector<PixelGeometry> geometry;
   bool has_geometry = false;
   std::uint32_t samples = 0;
-  std::uint64_t rejected = 0;        // samples that were negative or not finite, and counted as black
+  std::uint64_t rejected = 0;        // samples that were no radiance, and counted as black
   std::uint64_t whole_rejected = 0;  // those in `whole`
 
   // Samples in `whole` alone.

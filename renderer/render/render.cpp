@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace rondure {
 namespace {
@@ -35,9 +35,10 @@ struct PixelResult {
   std::uint64_t rejected = 0, whole_rejected = 0;
 };
 
+// What the file's floats can hold; no comparison with NaN is true.
 bool is_radiance(const dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && v.x >= 0.0 && v.y >= 0.0 &&
-         v.z >= 0.0;
+  constexpr double most = std::numeric_limits<float>::max();
+  return v.x >= 0.0 && v.y >= 0.0 && v.z >= 0.0 && v.x <= most && v.y <= most && v.z <= most;
 }
 
 // One sample; false when its colour had to be dropped.

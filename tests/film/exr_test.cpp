@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 
 #include "renderer/api/version.h"
@@ -116,6 +117,20 @@ TEST_CASE("the EXR holds the film's layers in its window", "[film]") {
   }
   CHECK(compared == 12 * 16);
   CHECK(failures == 0);
+}
+
+TEST_CASE("a variance beyond a float is written as the largest", "[film]") {
+  const std::string path = fresh_folder("exr_variance") + "/a.exr";
+  Film film = make_film();
+  FilmSample bright;
+  bright.color = dvec3(3e38, 0.0, 0.0);
+  film.rest[0].add(bright);
+  write_exr(path, film, make_header());
+  Imf::InputFile file(path.c_str());
+  auto channels = read_channels(file);
+  CHECK(channels.at("Variance.R")[0] == std::numeric_limits<float>::max());
+  CHECK(channels.at("R")[0] == Approx(1e38).epsilon(1e-6));
+  CHECK(channels.at("Variance.G")[0] < 1.0f);
 }
 
 TEST_CASE("the EXR's header tells what was rendered", "[film]") {

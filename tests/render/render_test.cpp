@@ -133,7 +133,7 @@ class Faulty : public Integrator {
 
 TEST_CASE("no wrong number reaches the film, and each is counted", "[render]") {
   for (const double wrong :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e-9}) {
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e-9, 3.5e38}) {
     StagedScene s(small_scene);
     s.scene.integrator = std::make_unique<Faulty>(wrong);
     const Film film = s.render(16);
