@@ -18,6 +18,10 @@ bool fail(const rondure::ImageReport* report, const std::string& message) {
   return false;
 }
 
+std::size_t index(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 bool read(const char* path, rondure::Image& image, const rondure::ImageReport* report) {
   const auto input = OIIO::ImageInput::open(path);
   if (!input) return fail(report, OIIO::geterror());
@@ -25,19 +29,26 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
   const int channels = spec.nchannels;
   const bool encoded =
       spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16;
-  image.width = spec.width;
-  image.height = spec.height;
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  std::vector<float> all(pixels * static_cast<std::size_t>(channels));
+  const auto stride = static_cast<std::size_t>(channels);
+  std::vector<float> all(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                         stride);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, all.data())) {
     return fail(report, input->geterror());
   }
-  image.rgb.resize(pixels * 3);
+  // The file's pixels lie anywhere in the picture, or beyond it; where there are none it is black.
+  image.width = spec.full_width > 0 ? spec.full_width : spec.width;
+  image.height = spec.full_height > 0 ? spec.full_height : spec.height;
+  const int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
+  image.rgb.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3, 0.0f);
   const int colours = channels >= 3 ? 3 : 1;  // grey, or grey and alpha, otherwise
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = all[i * static_cast<std::size_t>(channels) + (colours == 3 ? c : 0)];
-      image.rgb[3 * i + c] = encoded ? linear_of_srgb(value) : value;
+  for (int y = std::max(0, -top); y < spec.height && y + top < image.height; ++y) {
+    for (int x = std::max(0, -left); x < spec.width && x + left < image.width; ++x) {
+      const float* from = &all[index(x, y, spec.width) * stride];
+      float* to = &image.rgb[index(x + left, y + top, image.width) * 3];
+      for (int c = 0; c < 3; ++c) {
+        const float value = from[colours == 3 ? c : 0];
+        to[c] = encoded ? linear_of_srgb(value) : value;
+      }
     }
   }
   return true;

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "renderer/film/exr.h"
+#include "renderer/film/film.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warps.h"
 #include "tests/catch.h"
@@ -140,6 +142,30 @@ TEST_CASE("an environment file reaches the world, scaled and turned", "[shading]
   }
   INFO(worst.text());
   CHECK(worst.failures() == 0);
+}
+
+TEST_CASE("an EXR's pixels lie in their place in the whole picture", "[shading]") {
+  const std::string file = scratch_folder() + "/part.exr";
+  Film film(8, 4, {3, 1, 6, 3});
+  film.samples = 1;
+  for (int y = 1; y < 3; ++y) {
+    for (int x = 3; x < 6; ++x) {
+      FilmSample sample;
+      sample.color = dvec3(x, y, 0.5);
+      film.whole[film.index(x, y)].add(sample);
+    }
+  }
+  write_exr(file, film, {0, 0, "path", "newton", default_camera()});
+  const Image image = read_image(file);
+  REQUIRE((image.width == 8 && image.height == 4));
+  int failures = 0;
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const bool inside = x >= 3 && x < 6 && y >= 1 && y < 3;
+      failures += image.at(x, y) != (inside ? dvec3(x, y, 0.5) : dvec3(0.0));
+    }
+  }
+  CHECK(failures == 0);
 }
 
 TEST_CASE("image files that cannot be read are named", "[shading]") {
