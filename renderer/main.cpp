@@ -6,6 +6,7 @@
 #include <CLI/Formatter.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <stdexcept>
 
@@ -51,6 +52,12 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   return unknown_name("option", extras[0], option_names(program, *chosen[0]));
 }
 
+// A full disk shows only when the buffers are emptied.
+void flush_output() {
+  if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw std::runtime_error("cannot write to standard output");
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Ray tracing of exact rational Bezier surfaces", "rondure");
   program.set_version_flag("--version", std::string("rondure ") + version);
@@ -70,20 +77,22 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request);
+    const int code = program.exit(request);
+    flush_output();
+    return code;
   } catch (const CLI::ParseError& error) {
     throw std::runtime_error(explain(program, error));
   }
   register_builtins(context.registry);
   load_plugins(context.plugins, context.registry);
   context.action();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw std::runtime_error("cannot write to standard output");
+  flush_output();
   return 0;
 }
 
 int fail(const char* message) {
-  fmt::print(stderr, "rondure: error: {}\n", message);
+  // Nothing is left to do where even this cannot be written; fmt::print would throw.
+  for (const char* text : {"rondure: error: ", message, "\n"}) std::fputs(text, stderr);
   return 1;
 }
 

@@ -57,11 +57,14 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{"render", "scene.json", "--resolution", "4x4", "--crop", "1,1,9,9"},
        "the crop 1,1,9,9 must be a window of 0,0,4,4: x0,y0 within, x1,y1 just beyond"},
       {{"render", "scene.json", "--spp", "0"}, "--spp must be in [1, 1073741824], not 0"},
-      {{"render", "scene.json", "-o", "nowhere/out.exr"}, "nowhere/out.exr: cannot write: No such file or directory"},
+      {{"render", "scene.json", "-o", "nowhere/out.exr"},
+       "nowhere/out.exr: cannot write: No such file or directory"},
       {{"render", "scene.json", "--integrator", "paht"},
-       "scene.json: integrator: unknown integrator \"paht\"; did you mean \"path\"? (set on the command line)"},
+       "scene.json: integrator: unknown integrator \"paht\"; did you mean \"path\"? (set on the command "
+       "line)"},
       {{"info", "scene.json", "--solver", "bisection"},
-       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"bisection\" (set on the "
+       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"bisection\" (set "
+       "on the "
        "command line)"},
       {{"list", "--plugin", "missing.so"}, "plugin missing.so: there is no such file or folder"},
   };
@@ -132,6 +135,21 @@ TEST_CASE("a full disk is an error", "[commands]") {
   const ProcessResult result = run_process({"/bin/sh", "-c", "exec \"$0\" list > /dev/full", program_path()});
   CHECK(result.exit_code == 1);
   CHECK(result.err == "rondure: error: cannot write to standard output\n");
+  for (const char* option : {"--help", "--version"}) {
+    CAPTURE(option);
+    const ProcessResult told =
+        run_process({"/bin/sh", "-c", "exec \"$0\" \"$1\" > /dev/full", program_path(), option});
+    CHECK(told.exit_code == 1);
+    CHECK(told.err == "rondure: error: cannot write to standard output\n");
+  }
+}
+
+TEST_CASE("an error that cannot be told is exit code 1 all the same", "[commands]") {
+  for (const char* place : {"2> /dev/full", "2>&-"}) {
+    CAPTURE(place);
+    const std::string command = std::string("exec \"$0\" validate nowhere.json ") + place;
+    CHECK(run_process({"/bin/sh", "-c", command, program_path()}).exit_code == 1);
+  }
 }
 
 TEST_CASE("list and describe know every type and parameter", "[commands]") {
