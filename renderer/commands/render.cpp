@@ -7,13 +7,17 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <charconv>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "renderer/commands/commands.h"
+#include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/film/atomic_file.h"
@@ -39,6 +43,7 @@ struct Options {
 };
 
 constexpr std::int64_t most_samples = 1 << 30;
+constexpr double most_stops = 100.0;
 // Samples of a pass with --resume. After each the state may be saved, or the render interrupted.
 constexpr std::uint32_t pass_samples = 4 * Film::chunk;
 constexpr std::chrono::seconds save_interval{60};
@@ -46,9 +51,16 @@ constexpr std::chrono::seconds save_interval{60};
 std::optional<Window> read_crop(const std::string& text) {
   if (text.empty()) return {};
   Window w;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%d,%d,%d,%d%n", &w.x0, &w.y0, &w.x1, &w.y1, &used) != 4 ||
-      static_cast<std::size_t>(used) != text.size()) {
+  const char *at = text.data(), *const end = at + text.size();
+  bool good = true;
+  for (int* number : {&w.x0, &w.y0, &w.x1, &w.y1}) {
+    if (number != &w.x0) good = good && at != end && *at++ == ',';
+    if (!good) break;
+    const auto [next, error] = std::from_chars(at, end, *number);
+    good = error == std::errc();
+    at = next;
+  }
+  if (!good || at != end) {
     throw std::runtime_error(fmt::format("--crop wants x0,y0,x1,y1, four integers, not \"{}\"", text));
   }
   return w;
@@ -115,7 +127,7 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
 }
 
 void note(const Options& options, const std::string& text) {
-  if (!options.quiet) fmt::print(stderr, "{}\n", text);
+  if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);  // fmt::print throws where nobody listens
 }
 
 void render(const CommandContext& context, Options options) {
@@ -123,9 +135,17 @@ void render(const CommandContext& context, Options options) {
   RenderOptions settings;
   settings.threads = options.threads;
   settings.crop = read_crop(options.crop);
+  if (!(std::abs(options.exposure) <= most_stops)) {
+    throw std::runtime_error(
+        fmt::format("--exposure must be in [-{0}, {0}], not {1}", most_stops, options.exposure));
+  }
   if (options.output.empty()) {
     options.output = std::filesystem::path(options.scene.path).stem().string() + ".exr";
   }
+  std::vector<NamedPath> paths = {{"the scene", options.scene.path}, {"the output", options.output}};
+  if (!options.png.empty()) paths.push_back({"the preview", options.png});
+  if (options.resume) paths.push_back({"the state to resume from", resume_path(options.output)});
+  refuse_equal_paths(paths);
   Scene scene = read(context, options);
   Film film = make_film(scene, settings);
   check_writable(options.output);
@@ -148,7 +168,7 @@ void render(const CommandContext& context, Options options) {
                             film.window().height(), film.samples, duration_text(elapsed.count())));
   if (film.rejected > 0) {
     throw std::runtime_error(
-        fmt::format("{} of the picture's samples were negative or not finite and count as black; "
+        fmt::format("{} of the picture's samples were negative, not finite or too large and count as black; "
                     "the picture in {} is not to be trusted",
                     film.rejected, options.output));
   }

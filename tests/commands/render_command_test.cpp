@@ -125,11 +125,55 @@ TEST_CASE("render's errors name the cause and leave nothing", "[commands]") {
   CHECK(error_of({"-o", folder}) == "rondure: error: " + folder + ": cannot write: Is a directory\n");
   CHECK(error_of({"--crop", "1,2,3"}) ==
         "rondure: error: --crop wants x0,y0,x1,y1, four integers, not \"1,2,3\"\n");
+  for (const char* crop : {"0,0,4294967297,1", "0,0,9,9,", "0,,9,9", "0;0,9,9", "0,0,9,9x", ",0,0,9"}) {
+    CHECK(error_of({"--crop", crop}) ==
+          std::string("rondure: error: --crop wants x0,y0,x1,y1, four integers, not \"") + crop + "\"\n");
+  }
+  for (const char* stops : {"nan", "inf", "101", "-1e9"}) {
+    CHECK(error_of({std::string("--exposure=") + stops}).find("--exposure must be in [-100, 100], not ") !=
+          std::string::npos);
+  }
   CHECK(error_of({"--crop", "0,0,50,20"}) ==
         "rondure: error: the crop 0,0,50,20 must be a window of 0,0,40,30: x0,y0 "
         "within, x1,y1 just beyond\n");
   CHECK(error_of({"--spp", "0"}).find("--spp must be in [1, 1073741824], not 0") != std::string::npos);
   CHECK(names_in(folder) == std::set<std::string>{"ball.json"});
+}
+
+TEST_CASE("render refuses to write over its own files", "[commands]") {
+  const std::string folder = stage("render_equal_paths");
+  std::filesystem::create_symlink("ball.json", folder + "/link.json");
+  struct Row {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const Row table[] = {
+      {{"-o", "ball.json"}, "ball.json: is the scene and the output at once"},
+      {{"-o", "./link.json"}, "./link.json: is the scene and the output at once"},
+      {{"--png", "../render_equal_paths/ball.json"},
+       "../render_equal_paths/ball.json: is the scene and the preview at once"},
+      {{"-o", "a.exr", "--png", "./a.exr"}, "./a.exr: is the output and the preview at once"},
+      {{"-o", "a.exr", "--png", "a.exr.state", "--resume"},
+       "a.exr.state: is the preview and the state to resume from at once"},
+  };
+  for (const Row& row : table) {
+    std::vector<std::string> all = {"render", "ball.json"};
+    all.insert(all.end(), row.arguments.begin(), row.arguments.end());
+    const ProcessResult r = run_in(folder, all);
+    CHECK(r.exit_code == 1);
+    CHECK(r.err == "rondure: error: " + row.message + "\n");
+  }
+  CHECK(read_text_file(folder + "/ball.json") == scene);
+  CHECK(names_in(folder) == std::set<std::string>{"ball.json", "link.json"});
+}
+
+TEST_CASE("a render needs nobody to read its notes", "[commands]") {
+  const std::string folder = stage("render_deaf");
+  ProcessOptions options;
+  options.folder = folder;
+  CHECK(run_process({"/bin/sh", "-c", "exec \"$0\" render ball.json 2> /dev/full", program_path()}, options)
+            .exit_code == 0);
+  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json"});
 }
 
 TEST_CASE("an interrupted render writes nothing, or with --resume what it has", "[commands]") {
