@@ -22,9 +22,10 @@ class Direct : public Integrator {
       const double choice = sampler.next_1d(), lobe = sampler.next_1d();
       const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
       const dvec3 out = -ray.direction;
-      const auto scattered = sample_scattering(world.material(hit), hit.normal, out, lobe, scatter_uv);
-      if (!is_specular(world.material(hit))) {
-        result += throughput * sampled_light(world, hit, out, choice, light_uv);
+      const Material& material = world.material(hit);
+      const auto scattered = sample_scattering(material, hit.normal, out, lobe, scatter_uv);
+      if (!is_specular(material)) {
+        result += throughput * sampled_light(world, material, hit, out, choice, light_uv);
         if (!scattered) return result;
         const Ray last = spawn(hit, scattered->direction);
         const Hit met = world.tracer().closest(last);

@@ -32,8 +32,9 @@ class Path : public Integrator {
       const double choice = sampler.next_1d(), lobe = sampler.next_1d(), roulette = sampler.next_1d();
       const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
       const dvec3 out = -ray.direction;
-      result += throughput * sampled_light(world, hit, out, choice, light_uv);
-      scattered = sample_scattering(world.material(hit), hit.normal, out, lobe, scatter_uv);
+      const Material& material = world.material(hit);
+      result += throughput * sampled_light(world, material, hit, out, choice, light_uv);
+      scattered = sample_scattering(material, hit.normal, out, lobe, scatter_uv);
       if (!scattered) return result;
       throughput *= scattered->weight;
       squeeze *= scattered->squeeze;

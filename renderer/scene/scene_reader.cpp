@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "renderer/api/utf8.h"
 #include "renderer/scene/default_view.h"
 #include "renderer/scene/json_reader.h"
 #include "renderer/scene/object_reader.h"
@@ -76,7 +77,15 @@ void read_objects(Scene& scene, Params& root, const Registry& registry,
                   const std::map<std::string, int>& materials) {
   std::vector<Params> objects = root.objects("objects");
   if (objects.empty()) root.fail("objects", "\"objects\" is empty; a scene needs at least one");
-  for (Params& params : objects) scene.objects.push_back(read_object(params, registry, materials));
+  for (Params& params : objects) {
+    const SceneObject& object = scene.objects.emplace_back(read_object(params, registry, materials));
+    if (object.material == default_material || !object.traced.surface.patches.empty()) continue;
+    if (scene.materials[static_cast<std::size_t>(object.material)].isolines) {
+      params.fail("material", fmt::format("\"{}\" has no patches, and so no isolines; take a tiling, such as "
+                                          "\"sphere_tiling\"",
+                                          printable(object.type)));
+    }
+  }
   int plain = default_material;
   for (SceneObject& object : scene.objects) {
     if (object.material != default_material) continue;

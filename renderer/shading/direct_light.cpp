@@ -2,8 +2,8 @@
 
 namespace rondure {
 
-dvec3 sampled_light(const World& world, const Hit& hit, const dvec3& out, double choice, dvec2 uv) {
-  const Material& material = world.material(hit);
+dvec3 sampled_light(const World& world, const Material& material, const Hit& hit, const dvec3& out,
+                    double choice, dvec2 uv) {
   if (is_specular(material)) return dvec3(0.0);
   const LightSample light = world.sample_light(hit.point, choice, uv);
   if (!(light.pdf > 0.0)) return dvec3(0.0);

@@ -13,8 +13,9 @@ inline double power_heuristic(double own, double other) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-// From a light sample, toward `out`. Zero on specular materials.
-dvec3 sampled_light(const World& world, const Hit& hit, const dvec3& out, double choice, dvec2 uv);
+// From a light sample, toward `out`, where `material` is that at the hit. Zero on specular materials.
+dvec3 sampled_light(const World& world, const Material& material, const Hit& hit, const dvec3& out,
+                    double choice, dvec2 uv);
 
 // From emission at `hit`, or from the background on a miss, along `ray`. `scattered` is how the ray came
 // about; null for rays that no light sample competes with, such as a camera's.

@@ -12,6 +12,7 @@
 
 #include "renderer/api/params.h"
 #include "renderer/api/type_doc.h"
+#include "renderer/shading/isolines.h"
 
 namespace rondure {
 
@@ -41,6 +42,7 @@ using Scattering = std::variant<Diffuse, Mirror, Dielectric, RoughConductor>;
 struct Material {
   Scattering scattering = Diffuse{};
   dvec3 emission{0.0};  // radiance
+  std::optional<Isolines> isolines{};
 };
 
 struct ScatterSample {

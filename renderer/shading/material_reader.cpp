@@ -8,6 +8,20 @@ const ParameterDoc emission_doc{"emission", "colour >= 0", "0", "radiance that l
 // Below it (alpha = 1e-4) the lobe is as good as a mirror, and its density loses digits.
 constexpr double least_roughness = 0.01;
 
+const ParameterDoc isolines_doc{"isolines", "{ count, width, boundary_width, albedo }", "none",
+                                "parameter lines on patches: strips between lines (8), widths in scene units "
+                                "(0.01 and 0.02), ink (0.02)"};
+
+Isolines read_isolines(Params params) {
+  Isolines lines;
+  lines.count = static_cast<int>(params.integer("count", lines.count, 1, 1000));
+  lines.width = params.number("width", lines.width, Range::not_negative());
+  lines.boundary_width = params.number("boundary_width", lines.boundary_width, Range::not_negative());
+  lines.albedo = params.color("albedo", lines.albedo, Range::closed(0.0, 1.0));
+  params.finish();
+  return lines;
+}
+
 }  // namespace
 
 Material read_material(Params& params) {
@@ -33,6 +47,7 @@ Material read_material(Params& params) {
     material.scattering = m;
   }
   material.emission = params.color("emission", dvec3(0.0));
+  if (params.has("isolines")) material.isolines = read_isolines(params.object("isolines"));
   params.finish();
   return material;
 }
@@ -41,21 +56,27 @@ const std::vector<TypeDoc>& material_docs() {
   static const std::vector<TypeDoc> docs = {
       {"diffuse",
        "Scatters equally in all directions (Lambert 1760), on both sides.",
-       {{"albedo", "colour in [0, 1]", "0.5", "share of light that is scattered"}, emission_doc}},
+       {{"albedo", "colour in [0, 1]", "0.5", "share of light that is scattered"},
+        emission_doc,
+        isolines_doc}},
       {"mirror",
        "Reflects in the one direction of the law of reflection, on both sides.",
-       {{"reflectance", "colour in [0, 1]", "1", "share of light that is reflected"}, emission_doc}},
+       {{"reflectance", "colour in [0, 1]", "1", "share of light that is reflected"},
+        emission_doc,
+        isolines_doc}},
       {"dielectric",
        "Smooth clear interface, such as glass; the inside is where the normal leaves.",
        {{"ior", "number in [0.1, 10]", "1.5", "index of refraction inside, relative to outside"},
         {"transmittance", "colour in [0, 1]", "1", "factor on light that crosses"},
-        emission_doc}},
+        emission_doc,
+        isolines_doc}},
       {"rough_conductor",
        "Metal with GGX microfacets (Walter et al. 2007) and exact Fresnel reflectance, on both sides.",
        {{"eta", "colour > 0", "[0.2, 0.92, 1.1]", "index of refraction, real part; the default is copper's"},
         {"k", "colour >= 0", "[3.9, 2.45, 2.14]", "index of refraction, imaginary part"},
         {"roughness", "number in [0.01, 1]", "0.2", "square root of the GGX width alpha"},
-        emission_doc}},
+        emission_doc,
+        isolines_doc}},
   };
   return docs;
 }

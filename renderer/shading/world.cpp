@@ -98,14 +98,29 @@ World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<
     lights_->areas.push_back({SurfaceLight(surfaces[i].surface), static_cast<int>(i), m.emission});
   }
   lights_->weigh(tracer.bounding_radius());
+  for (const Material& m : materials_) {
+    inks_.push_back({Diffuse{m.isolines ? m.isolines->albedo : dvec3(0.0)}, m.emission, {}});
+  }
 }
 
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
+const Material& World::material(const Hit& hit) const {
+  const auto surface = static_cast<std::size_t>(hit.surface);
+  const auto index = static_cast<std::size_t>(material_of_surface_[surface]);
+  const Material& own = materials_[index];
+  if (!own.isolines) return own;
+  const Surface& shape = tracer_->surfaces()[surface].surface;
+  if (shape.patches.empty()) return own;
+  const Net& net = shape.patches[static_cast<std::size_t>(hit.patch)];
+  return on_isoline(*own.isolines, net, hit.point - shape.origin, hit.u, hit.v) ? inks_[index] : own;
+}
+
 dvec3 World::emitted(const Hit& hit, const dvec3& out) const {
-  const Material& m = material(hit);
+  const auto surface = static_cast<std::size_t>(hit.surface);
+  const Material& m = materials_[static_cast<std::size_t>(material_of_surface_[surface])];
   return emits(m) && glm::dot(hit.normal, out) > 0.0 ? m.emission : dvec3(0.0);
 }
 

@@ -31,9 +31,8 @@ class World {
   World& operator=(World&&) noexcept;
 
   const Tracer& tracer() const { return *tracer_; }
-  const Material& material(const Hit& hit) const {
-    return materials_[static_cast<std::size_t>(material_of_surface_[static_cast<std::size_t>(hit.surface)])];
-  }
+  // The material at the hit: that of its surface, or of a parameter line drawn there. Ask once a hit.
+  const Material& material(const Hit& hit) const;
 
   // Radiance that leaves the hit toward `out` (unit) by emission.
   dvec3 emitted(const Hit& hit, const dvec3& out) const;
@@ -54,6 +53,7 @@ class World {
 
   const Tracer* tracer_;
   std::vector<Material> materials_;
+  std::vector<Material> inks_;  // of the parameter lines of each material
   std::vector<int> material_of_surface_;
   std::unique_ptr<Lights> lights_;
 };

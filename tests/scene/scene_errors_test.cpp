@@ -76,6 +76,10 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
        "\"difuse\"; did you mean \"diffuse\"?"},
       {"{ \"materials\": {\"clay\": {\"albedo\": 1.5}} }",
        "s.json:1:36: \"albedo\" must be a number in [0, 1], found 1.5"},
+      {"{ \"materials\": {\"a\": {\"isolines\": {}}}, \"objects\": [{\"type\":\"sphere\", "
+       "\"material\":\"a\"}] }",
+       "s.json:1:82: \"sphere\" has no patches, and so no isolines; take a tiling, such as "
+       "\"sphere_tiling\""},
       {"{ \"objects\": [{\"type\":\"sphere\"}], \"lights\": [{\"type\":\"spot\"}] }",
        "s.json:1:54: \"type\" must be one of \"constant\", \"environment\", \"point\", \"directional\", "
        "found \"spot\""},

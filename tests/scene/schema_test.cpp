@@ -50,10 +50,14 @@ std::string reader_says(const Json& scene) {
       message_of([&] { read_scene_text(source_folder() + "/scenes/s.json", scene.dump(), registry); }));
 }
 
-std::vector<std::string> shipped_scenes() {
+// Those at the top, or with their sub-folders; the schema is none.
+std::vector<std::string> shipped_scenes(bool in_folders) {
   std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/scenes")) {
-    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() + "/scenes")) {
+    const std::filesystem::path& path = entry.path();
+    const std::string folder = path.parent_path().filename().string();
+    if (path.extension() != ".json" || folder == "schema") continue;
+    if (in_folders || folder == "scenes") paths.push_back(path.string());
   }
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -84,20 +88,23 @@ class Agreement {
 };
 
 TEST_CASE("every shipped scene passes the schema and is read", "[scene]") {
-  const std::vector<std::string> paths = shipped_scenes();
+  const std::vector<std::string> paths = shipped_scenes(true);
+  const std::string schema = source_folder() + "/scenes/schema/scene.schema.json";
   CHECK(paths.size() >= 7);
   for (const std::string& path : paths) {
     CAPTURE(path);
     const Json scene = parse(read_text_file(path));
     CHECK(schema_accepts(scene));
     CHECK(reader_says(scene) == "accepted");
-    CHECK(scene.value("$schema", "") == "schema/scene.schema.json");
+    const std::filesystem::path beside = std::filesystem::path(path).parent_path();
+    CHECK(std::filesystem::weakly_canonical(beside / scene.value("$schema", "")) ==
+          std::filesystem::weakly_canonical(schema));
   }
 }
 
 TEST_CASE("schema and reader refuse the same damaged scenes", "[scene]") {
   Agreement swapped, added, removed;
-  for (const std::string& path : shipped_scenes()) {
+  for (const std::string& path : shipped_scenes(false)) {
     const Json whole = parse(read_text_file(path));
     std::vector<Json::json_pointer> places;
     collect(whole, Json::json_pointer(), places);
@@ -197,6 +204,15 @@ TEST_CASE("schema and reader agree on every form and every limit", "[scene]") {
       {false, "/integrator", R"({"type": "direct", "min_depth": 1})"},
       {false, "/integrator", R"({"type": "normals", "max_depth": 1})"},
       {true, "/materials", "{}"},
+      {true, "/materials/a", R"({"isolines": {}})"},
+      {true, "/materials/a", R"({"type": "mirror", "isolines": {"count": 1, "width": 0, "albedo": 1}})"},
+      {true, "/materials/a", R"({"isolines": {"count": 1000, "boundary_width": 0.1}})"},
+      {false, "/materials/a", R"({"isolines": true})"},
+      {false, "/materials/a", R"({"isolines": {"count": 0}})"},
+      {false, "/materials/a", R"({"isolines": {"count": 1001}})"},
+      {false, "/materials/a", R"({"isolines": {"width": -1}})"},
+      {false, "/materials/a", R"({"isolines": {"albedo": 1.5}})"},
+      {false, "/materials/a", R"({"isolines": {"lines": 3}})"},
       {true, "/materials/a", "{}"},
       {false, "/materials/a", "\"diffuse\""},
       {true, "/materials/a", R"({"albedo": 1, "emission": 5})"},
