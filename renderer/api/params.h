@@ -117,6 +117,7 @@ class Params {
   [[noreturn]] void fail(const Value& at, const std::string& message) const;       // at any value inside
 
   const std::string& what() const { return what_; }
+  SourcePosition where() const { return value_->where; }
   const SourceText* source() const { return source_; }
 
  private:

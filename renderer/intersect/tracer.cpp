@@ -222,6 +222,9 @@ CompiledSurface compile(const Surface& surface, int max_depth) {
 
 }  // namespace
 
+SurfaceError::SurfaceError(std::size_t index, const std::string& why)
+    : std::runtime_error(fmt::format("object {}: {}", index, why)), surface(index), reason(why) {}
+
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.surfaces = std::move(surfaces);
@@ -242,7 +245,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   });
   // The first in the scene's order, whichever thread met its own first.
   for (std::size_t k = 0; k < count; ++k)
-    if (!errors[k].empty()) throw std::runtime_error(fmt::format("object {}: {}", k, errors[k]));
+    if (!errors[k].empty()) throw SurfaceError(k, errors[k]);
 
   Box world;
   for (std::size_t k = 0; k < count; ++k) {

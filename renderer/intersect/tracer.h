@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,19 @@ struct TracerStatistics {
   std::size_t bytes = 0;  // nets, leaves and the acceleration structure
 };
 
+// A surface that no solver can meet. The message names its index and the patch.
+struct SurfaceError : std::runtime_error {
+  SurfaceError(std::size_t index, const std::string& why);
+
+  std::size_t surface;
+  std::string reason;  // without the index
+};
+
 // Immutable once built; every query is const, thread-safe and noexcept.
 class Tracer {
  public:
-  // Throws std::runtime_error naming surface and patch when a net cannot be bounded (non-finite, or weights
-  // that change sign after refinement).
+  // Throws SurfaceError when a net cannot be bounded (non-finite, or weights that change sign after
+  // refinement), std::runtime_error when the surfaces together are too small or too large.
   explicit Tracer(std::vector<TracedSurface> surfaces);
   ~Tracer();
   Tracer(Tracer&&) noexcept;

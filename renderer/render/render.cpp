@@ -91,7 +91,12 @@ PixelResult render_pixel(const Job& job, int x, int y, PixelSums& whole) {
 World make_world(const Scene& scene, const Tracer& tracer) {
   std::vector<int> materials;
   for (const SceneObject& object : scene.objects) materials.push_back(object.material);
-  return World(tracer, scene.materials, scene.lights, std::move(materials));
+  try {
+    return World(tracer, scene.materials, scene.lights, std::move(materials));
+  } catch (const LightError& error) {
+    const auto* image = std::get_if<EnvironmentLight>(&scene.lights[error.light]);
+    scene.fail(image ? image->file_where : SourcePosition{}, error.what());
+  }
 }
 
 Film make_film(const Scene& scene, const RenderOptions& options) {

@@ -10,7 +10,8 @@
 
 namespace rondure {
 
-// The scene's light and materials about its surfaces; `tracer` must outlive the world.
+// The scene's light and materials about its surfaces; `tracer` must outlive the world. Throws SceneError
+// where the scene names an image that is of no use.
 World make_world(const Scene& scene, const Tracer& tracer);
 
 struct RenderOptions {

@@ -9,7 +9,7 @@
 namespace rondure {
 
 // Version, scene hash, seed, size, window, and a hash of what the scene's text only points to: control nets
-// and environment images. The scene must still hold its nets. Throws std::runtime_error for an image that
+// and environment images. The scene must still hold its nets. Throws SceneError for an image that
 // cannot be read.
 std::string resume_key(const Scene& scene, const Film& film);
 

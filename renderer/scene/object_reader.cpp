@@ -70,6 +70,7 @@ void place(Surface& surface, const Placement& placement) {
 SceneObject read_object(Params& params, const Registry& registry,
                         const std::map<std::string, int>& materials) {
   SceneObject object;
+  object.where = params.where();
   object.type = params.text("type");
   const SurfaceFamily* family = registry.family(object.type);
   if (!family) params.fail("type", unknown_name("type", object.type, registry.family_names()));

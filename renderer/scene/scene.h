@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/api/integrator.h"
+#include "renderer/api/params.h"
 #include "renderer/camera/camera.h"
 #include "renderer/film/film_settings.h"
 #include "renderer/intersect/tracer.h"
@@ -24,11 +25,13 @@ struct SceneObject {
   std::string type;
   TracedSurface traced;
   int material = 0;  // index into Scene::materials
+  SourcePosition where;
 };
 
 struct Scene {
   std::string path;
-  std::uint64_t hash = 0;  // of the file's bytes and of every override
+  std::shared_ptr<const SourceText> source;  // for messages; null when the scene is made by hand
+  std::uint64_t hash = 0;                    // of the file's bytes and of every override
   Camera camera;
   FilmSettings film;
   SamplingSettings sampling;
@@ -37,6 +40,10 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Light> lights;
   std::vector<SceneObject> objects;
+  SourcePosition objects_where;  // of the list
+
+  // Throws SceneError: what comes to light only when the scene is put to use, at its cause in the file.
+  [[noreturn]] void fail(SourcePosition where, const std::string& message) const;
 };
 
 }  // namespace rondure

@@ -77,6 +77,7 @@ void read_objects(Scene& scene, Params& root, const Registry& registry,
                   const std::map<std::string, int>& materials) {
   std::vector<Params> objects = root.objects("objects");
   if (objects.empty()) root.fail("objects", "\"objects\" is empty; a scene needs at least one");
+  scene.objects_where = root.raw("objects")->where;
   for (Params& params : objects) {
     const SceneObject& object = scene.objects.emplace_back(read_object(params, registry, materials));
     if (object.material == default_material || !object.traced.surface.patches.empty()) continue;
@@ -114,6 +115,7 @@ Scene read_document(Document document, const std::string& path, const Registry& 
   Params root(document.root, document.source.get(), "");
   Scene scene;
   scene.path = path;
+  scene.source = document.source;
   scene.hash = hash_bytes(hash_bytes(0xCBF29CE484222325u, document.source->text), overrides_text(overrides));
   root.text("$schema", "");
   root.text("name", "");

@@ -18,7 +18,8 @@ struct ConstantLight {
 // An equirectangular image at infinity, seen from inside with z up: direction (x, y, z) looks up the image at
 // (1/2 - atan2(y, x) / 2 pi, acos(z) / pi) from its top left, after `to_world` is undone.
 struct EnvironmentLight {
-  std::string file;     // resolved; read when the world is built
+  std::string file;  // resolved; read when the world is built
+  SourcePosition file_where;
   dvec3 scale{1.0};     // factor on the image's radiance
   dmat3 to_world{1.0};  // rotation
 };

@@ -24,6 +24,7 @@ dmat3 rotation(int axis, double degrees) {
 EnvironmentLight read_environment(Params& params) {
   EnvironmentLight light;
   light.file = params.path("file");
+  light.file_where = params.raw("file")->where;
   if (!std::filesystem::is_regular_file(light.file)) params.fail("file", "no such file: " + light.file);
   light.scale = params.color("scale", light.scale);
   // One number turns about z; three turn about x, then y, then z.

@@ -23,6 +23,14 @@ struct ImageLight {
   dvec3 local(const dvec3& direction) const { return glm::transpose(to_world) * direction; }
 };
 
+Environment read_environment(const std::string& file, std::size_t light) {
+  try {
+    return Environment(read_image(file));
+  } catch (const std::runtime_error& error) {
+    throw LightError(light, error.what());
+  }
+}
+
 struct AreaLight {
   SurfaceLight points;
   int surface;
@@ -81,12 +89,13 @@ World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<
       materials_(std::move(materials)),
       material_of_surface_(std::move(material_of_surface)),
       lights_(std::make_unique<Lights>()) {
-  for (const Light& light : lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights[i];
     if (const auto* constant = std::get_if<ConstantLight>(&light)) lights_->constant += constant->radiance;
     if (const auto* point = std::get_if<PointLight>(&light)) lights_->points.push_back(*point);
     if (const auto* far = std::get_if<DirectionalLight>(&light)) lights_->directionals.push_back(*far);
     if (const auto* image = std::get_if<EnvironmentLight>(&light)) {
-      lights_->images.push_back({Environment(read_image(image->file)), image->scale, image->to_world});
+      lights_->images.push_back({read_environment(image->file, i), image->scale, image->to_world});
     }
   }
   const std::vector<TracedSurface>& surfaces = tracer.surfaces();

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "renderer/intersect/tracer.h"
@@ -20,10 +22,17 @@ struct LightSample {
   int surface = -1;    // the emissive surface, or -1
 };
 
+// A light whose image is of no use.
+struct LightError : std::runtime_error {
+  LightError(std::size_t index, const std::string& why) : std::runtime_error(why), light(index) {}
+
+  std::size_t light;
+};
+
 class World {
  public:
   // `material_of_surface[i]` is the index of the material of the tracer's surface i. The tracer must outlive
-  // the world. Reads environment images; throws std::runtime_error that names the file.
+  // the world. Reads environment images; throws LightError that names the file.
   World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
         std::vector<int> material_of_surface);
   ~World();
