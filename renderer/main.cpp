@@ -1,9 +1,12 @@
 // The program: one sub-command a run. The only place that catches.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -52,6 +55,18 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   return unknown_name("option", extras[0], option_names(program, *chosen[0]));
 }
 
+// A standard descriptor that came closed would go to the next file that is opened, and messages would land in
+// that file. It becomes /dev/null, opened the wrong way round: reading and writing still fail, as they
+// should.
+void hold_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest free descriptor is this one.
+    if (open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) != descriptor)
+      throw std::runtime_error("a standard descriptor is closed, and /dev/null does not open");
+  }
+}
+
 // A full disk shows only when the buffers are emptied.
 void flush_output() {
   if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout))
@@ -59,6 +74,7 @@ void flush_output() {
 }
 
 int run(int argc, char** argv) {
+  hold_standard_descriptors();
   CLI::App program("Ray tracing of exact rational Bezier surfaces", "rondure");
   program.set_version_flag("--version", std::string("rondure ") + version);
   program.require_subcommand(1);

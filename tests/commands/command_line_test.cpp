@@ -152,6 +152,46 @@ TEST_CASE("an error that cannot be told is exit code 1 all the same", "[commands
   }
 }
 
+// The program under a shell, for redirections that run_process does not make: "$0" is the program.
+ProcessResult run_redirected(const std::string& folder, const std::string& command) {
+  ProcessOptions options;
+  options.folder = folder;
+  return run_process({"/bin/sh", "-c", "exec \"$0\" " + command, program_path()}, options);
+}
+
+TEST_CASE("a closed standard output is an error", "[commands]") {
+  const std::string folder = folder_with("closed_output", ball);
+  for (const char* command : {"list", "--help", "validate scene.json"}) {
+    CAPTURE(command);
+    const ProcessResult result = run_redirected(folder, std::string(command) + " >&-");
+    CHECK(result.exit_code == 1);
+    CHECK(result.err == "rondure: error: cannot write to standard output\n");
+  }
+  CHECK(run_redirected(folder, "info scene.json >&-").err ==
+        "rondure: error: standard output: writing failed\n");
+  const ProcessResult input = run_redirected(folder, "trace scene.json --rays - -o hits.csv <&-");
+  CHECK(input.exit_code == 1);
+  CHECK(input.err == "rondure: error: standard input: reading failed after line 0: Bad file descriptor\n");
+  CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
+}
+
+TEST_CASE("files do not land on closed standard descriptors", "[commands]") {
+  const std::string folder = folder_with("closed_descriptors", ball);
+  const std::string render = "render scene.json --resolution 8x8 --spp 2 -o ";
+  REQUIRE(run_redirected(folder, render + "plain.exr").exit_code == 0);
+  CHECK(run_redirected(folder, render + "closed.exr <&- >&- 2>&-").exit_code == 0);
+  CHECK(read_text_file(folder + "/closed.exr") == read_text_file(folder + "/plain.exr"));
+  // The kernel tells that each descriptor is taken: what it stands for is empty, not missing.
+  for (const char* descriptor : {"0", "1", "2"}) {
+    CAPTURE(descriptor);
+    const std::string rays = std::string("/dev/fd/") + descriptor;
+    const ProcessResult result =
+        run_redirected(folder, "trace scene.json --rays " + rays + " -o hits.csv <&- >&- 2>&-");
+    CHECK(result.exit_code == 0);
+    CHECK(read_text_file(folder + "/hits.csv") == "ray,hit,t,x,y,z,nx,ny,nz,surface,patch,u,v\n");
+  }
+}
+
 TEST_CASE("list and describe know every type and parameter", "[commands]") {
   Registry registry;
   register_builtins(registry);
