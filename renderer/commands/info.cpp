@@ -14,6 +14,7 @@
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/scene_options.h"
+#include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/scene/scene_reader.h"
 
@@ -46,9 +47,7 @@ Json describe_object(const SceneObject& object) {
     for (const dvec4& p : points_of(net)) low = std::fmin(low, p.w), high = std::fmax(high, p.w);
   }
   Json out = {{"name", object.name}, {"type", object.type}, {"closed", surface.closed}};
-  out["solver"] = surface.ellipsoid                        ? "closed form"
-                  : object.traced.solver == Solver::newton ? "newton"
-                                                           : "clipping";
+  out["solver"] = solver_name(object.traced);
   out["patches"] = surface.patches.size();
   if (surface.ellipsoid) {
     const dmat3& m = *surface.ellipsoid;

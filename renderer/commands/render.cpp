@@ -13,12 +13,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <stdexcept>
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/scene_options.h"
+#include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/film/atomic_file.h"
 #include "renderer/film/exr.h"
@@ -79,14 +79,6 @@ Scene read(const CommandContext& context, const Options& options) {
     scene.sampling.spp = static_cast<int>(*spp);
   }
   return scene;
-}
-
-std::string solver_names(const Scene& scene) {
-  std::set<std::string> names;
-  for (const SceneObject& object : scene.objects) {
-    names.insert(object.traced.solver == Solver::newton ? "newton" : "clipping");
-  }
-  return fmt::format("{}", fmt::join(names, ","));
 }
 
 // One pass over the picture, or with --resume several and a state file, marked with `key`, beside the output.
@@ -154,11 +146,12 @@ void render(const CommandContext& context, Options options) {
     require_image_module();
   }
   const std::string key = options.resume ? resume_key(scene, film) : "";
+  const std::string solvers = solver_names(scene);
   const Tracer tracer = tracer_of(scene);
   const World world = make_world(scene, tracer);
   render_film(film, scene, world, settings, key, options);
 
-  ExrHeader header{scene.hash, scene.sampling.seed, scene.integrator_name, solver_names(scene), scene.camera};
+  ExrHeader header{scene.hash, scene.sampling.seed, scene.integrator_name, solvers, scene.camera};
   write_exr(options.output, film, header);
   if (!options.png.empty()) {
     write_png(options.png, film.window().width(), film.window().height(), preview(film, options.exposure));

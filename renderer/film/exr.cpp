@@ -13,6 +13,7 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <glm/common.hpp>
@@ -55,11 +56,14 @@ Imf::Header make_header(const Film& film, const ExrHeader& info) {
   const Window& w = film.window();
   const Imath::Box2i display({0, 0}, {film.width() - 1, film.height() - 1});
   const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
-  Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, 1.0f, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  const double aspect = static_cast<double>(film.width()) / film.height();
+  // At distance 1, or of the orthographic window.
+  const double screen = std::min(info.camera.extent * aspect, double(std::numeric_limits<float>::max()));
+  Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, static_cast<float>(screen), Imf::INCREASING_Y,
+                     Imf::ZIP_COMPRESSION);
   for (const char* name : names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   Imf::addChromaticities(header, Imf::Chromaticities{});  // Rec. 709, D65
   Imf::addWorldToCamera(header, matrix(world_to_camera(info.camera)));
-  const double aspect = static_cast<double>(film.width()) / film.height();
   Imf::addWorldToNDC(header, matrix(world_to_ndc(info.camera, aspect)));
   const auto text = [&](const char* name, const std::string& value) {
     header.insert(name, Imf::StringAttribute(value));

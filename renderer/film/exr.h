@@ -14,13 +14,14 @@ struct ExrHeader {
   std::uint64_t scene_hash = 0;
   std::uint64_t seed = 0;
   std::string integrator;
-  std::string solver;
+  std::string solver;  // what finds the hits, or a list
   Camera camera;
 };
 
 // One part, 32-bit floats, ZIP; the film's window is the data window. Channels: R G B A; Albedo.R .G .B;
 // Depth.Z; N.X .Y .Z; P.X .Y .Z; Patch.id, Patch.surface (-1 where nothing is hit); UV.U .V; Variance.R .G .B
-// (of the mean). Atomic. Throws std::runtime_error naming the file.
+// (of the mean). The screen window is the whole picture's, whatever the film's window. Atomic. Throws
+// std::runtime_error naming the file.
 void write_exr(const std::string& path, const Film& film, const ExrHeader& header);
 
 }  // namespace rondure

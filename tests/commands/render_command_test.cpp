@@ -45,6 +45,32 @@ TEST_CASE("render writes the scene's name and says so", "[commands]") {
   CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json"});
 }
 
+TEST_CASE("the file's header names what found the hits", "[commands]") {
+  const std::pair<std::string, std::string> table[] = {
+      {R"({ "type": "sphere" })", "closed form"},
+      {R"({ "type": "sphere", "solver": "clipping" })", "closed form"},
+      {R"({ "type": "sphere_octant" })", "newton"},
+      {R"({ "type": "sphere_octant", "solver": "clipping" })", "clipping"},
+      {R"({ "type": "sphere_octant" }, { "type": "sphere" }, { "type": "sphere_cap" })",
+       "closed form, newton"},
+  };
+  const std::string folder = fresh_folder("render_solver");
+  for (const auto& [objects, solver] : table) {
+    write_text_file(folder + "/s.json", R"({ "objects": [ )" + objects + " ] }");
+    const ProcessResult r =
+        run_in(folder, {"render", "s.json", "--resolution", "2x2", "--spp", "1", "--quiet", "-o", "a.exr"});
+    INFO(r.err);
+    REQUIRE(r.exit_code == 0);
+    // Name, type, four bytes of length, value; the next attribute's name follows.
+    const std::string bytes = read_text_file(folder + "/a.exr");
+    const std::string attribute("rondure:solver\0string\0", 22);
+    const std::size_t at = bytes.find(attribute);
+    REQUIRE(at != std::string::npos);
+    const auto length = static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + attribute.size()]));
+    CHECK(bytes.substr(at + attribute.size() + 4, length) == solver);
+  }
+}
+
 TEST_CASE("rendered files do not depend on threads, and quiet is quiet", "[commands]") {
   const std::string folder = stage("render_threads");
   std::string first;

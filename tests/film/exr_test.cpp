@@ -162,6 +162,21 @@ TEST_CASE("the EXR's header tells what was rendered", "[film]") {
   const double half = std::tan(17.5 * 3.14159265358979 / 180);
   CHECK(in_ndc.y == Approx(2.0 / half).epsilon(1e-5));
   CHECK(in_ndc.x == Approx(3.0 / half / 1.4).epsilon(1e-5));  // the picture is 7 x 5
+
+  CHECK(h.pixelAspectRatio() == 1.0f);
+  CHECK(h.screenWindowCenter() == Imath::V2f(0.0f));
+  CHECK(h.screenWindowWidth() == Approx(2.0 * half * 1.4).epsilon(1e-6));
+}
+
+TEST_CASE("the screen window of an orthographic camera is what it sees", "[film]") {
+  const std::string path = fresh_folder("exr_screen") + "/a.exr";
+  ExrHeader header = make_header();
+  for (const auto& [height, width] : {std::pair(2.5, 3.5), std::pair(1e60, 3.4028234663852886e38)}) {
+    header.camera = look_at(Projection::orthographic, {0, -4, 1}, {0, 0, 0}, {0, 0, 1});
+    header.camera.extent = height;
+    write_exr(path, make_film(), header);
+    CHECK(Imf::InputFile(path.c_str()).header().screenWindowWidth() == static_cast<float>(width));
+  }
 }
 
 TEST_CASE("equal films are equal files, and old files give way whole", "[film]") {
