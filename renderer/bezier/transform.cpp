@@ -1,9 +1,28 @@
 #include "renderer/bezier/transform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
 
 namespace rondure {
+namespace {
+
+// Whether the determinant is negative. Columns and rows are brought near 1 by powers of two first, so that
+// no scale, uniform or not, makes it underflow or overflow.
+bool mirrors(dmat4 m) {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int k = 0; k < 4; ++k) {
+      const double size =
+          std::max({std::fabs(m[k].x), std::fabs(m[k].y), std::fabs(m[k].z), std::fabs(m[k].w)});
+      if (!(size > 0.0) || !std::isfinite(size)) return false;
+      for (int i = 0; i < 4; ++i) m[k][i] = std::ldexp(m[k][i], -std::ilogb(size));
+    }
+    m = glm::transpose(m);
+  }
+  return glm::determinant(m) < 0.0;
+}
+
+}  // namespace
 
 Net reversed(const Net& net) {
   if (const auto* t = std::get_if<TensorNet>(&net)) {
@@ -22,7 +41,7 @@ Net reversed(const Net& net) {
 }
 
 Net transformed(const Net& net, const dmat4& matrix) {
-  Net out = glm::determinant(matrix) < 0.0 ? reversed(net) : net;
+  Net out = mirrors(matrix) ? reversed(net) : net;
   for (dvec4& p : points_of(out)) p = matrix * p;
   return out;
 }
