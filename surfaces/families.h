@@ -11,5 +11,7 @@ void register_sphere(Registry& registry);
 void register_sphere_cap(Registry& registry);
 void register_sphere_octant(Registry& registry);
 void register_sphere_tiling(Registry& registry);
+void register_spherical_quad(Registry& registry);
+void register_stereographic_patch(Registry& registry);
 
 }  // namespace rondure

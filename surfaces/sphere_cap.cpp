@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "renderer/api/registry.h"
+#include "renderer/projective/planar_patch.h"
 #include "surfaces/families.h"
-#include "surfaces/stereographic_patch.h"
 
 namespace rondure {
 namespace {

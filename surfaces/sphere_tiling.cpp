@@ -1,26 +1,20 @@
-// The unit sphere in biquartic patches: two hemispheres (Cobb 1988, Table 2) or six faces of a cube (Table
-// 4). Neighbours share the control points of their common edge bit for bit, in reverse order.
+// The unit sphere in biquartic patches: two hemispheres (Cobb 1988, Table 2), six faces of a cube (Table 4),
+// or the quadrilaterals of other polyhedra (section 7). Neighbours share the control points of their common
+// edge bit for bit, in reverse order, wherever they share its weights.
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 
 #include "renderer/api/registry.h"
+#include "renderer/projective/planar_patch.h"
+#include "renderer/projective/shared_points.h"
+#include "surfaces/corner_weights.h"
 #include "surfaces/families.h"
-#include "surfaces/stereographic_patch.h"
+#include "surfaces/polyhedral_tiles.h"
 
 namespace rondure {
 namespace {
-
-// The square of circular arcs that projects to the cube's face around the south pole (Cobb 1988, Figure 4).
-PlanarBiquadratic cube_square(long double middle_weight) {
-  const long double r2 = 1.414213562373095048801688724209698079L;
-  const long double r3 = 1.732050807568877293527446341505872367L;
-  const long double a = r3 - 1;
-  const long double e = (3 - r3) * r2 / 2;
-  const long double w = (r3 + 1) * r2 / 4;
-  const long double c = middle_weight;
-  return {{{-a, 0, a}, {-e, 0, e}, {-a, 0, a}},
-          {{-a, -e, -a}, {0, 0, 0}, {a, e, a}},
-          {{1, w, 1}, {w, c, w}, {1, w, 1}}};
-}
 
 // A signed permutation of the axes: coordinate c of the image is sign[c] times coordinate from[c].
 struct AxisRotation {
@@ -29,9 +23,9 @@ struct AxisRotation {
 };
 
 // Turns of the south face (about -z) to the faces about -z, +z, +x, -x, +y, -y. All have determinant 1.
-constexpr AxisRotation face_rotations[6] = {
-    {{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}}, {{2, 1, 0}, {-1.0, 1.0, 1.0}},
-    {{2, 1, 0}, {1.0, 1.0, -1.0}}, {{0, 2, 1}, {1.0, -1.0, 1.0}},  {{0, 2, 1}, {1.0, 1.0, -1.0}}};
+constexpr AxisRotation face_rotations[6] = {{{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}},
+                                            {{2, 1, 0}, {-1.0, 1.0, 1.0}}, {{2, 1, 0}, {1.0, 1.0, -1.0}},
+                                            {{0, 2, 1}, {1.0, -1.0, 1.0}}, {{0, 2, 1}, {1.0, 1.0, -1.0}}};
 
 TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
   TensorNet out = net;
@@ -42,20 +36,79 @@ TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
   return out;
 }
 
+std::vector<Net> cube(double middle) {
+  const TensorNet south = sphere_patch(cube_square(middle), 1);
+  std::vector<Net> patches;
+  for (const AxisRotation& turn : face_rotations) patches.push_back(rotated(south, turn));
+  return patches;
+}
+
+std::vector<Net> hemispheres(double middle) {
+  const TensorNet south = sphere_patch(disk(2, middle), 1);
+  // A half turn about x = y, z = 0: the boundary maps to itself and the net keeps its orientation.
+  const AxisRotation half_turn{{1, 0, 2}, {1.0, 1.0, -1.0}};
+  return {rotated(south, AxisRotation{{0, 1, 2}, {1.0, 1.0, 1.0}}), rotated(south, half_turn)};
+}
+
+std::vector<Tile> tiles_of(const std::string& topology, std::int64_t reading) {
+  if (topology == "tetrahedron_pairs") return tetrahedron_pairs();
+  if (topology == "octahedron_pairs") return octahedron_pairs();
+  if (topology == "icosahedron_pairs") return icosahedron_pairs();
+  if (topology == "tetrahedron_quads") return tetrahedron_quads();
+  if (topology == "octahedron_quads") return octahedron_quads();
+  if (topology == "icosahedron_quads") return icosahedron_quads();
+  return reading == 42 ? rhombicuboctahedron_42() : rhombicuboctahedron_54();
+}
+
+std::vector<Net> polyhedral(const Params& params, const std::vector<Tile>& tiles, QuadPatchOptions options) {
+  std::vector<Net> patches;
+  for (const Tile& tile : tiles) {
+    const SphericalQuad quad = geodesic_quad(tile.corner);
+    options.straight_corners = true;
+    options.centre = tile.centre;
+    if (const auto defect = defect_of(shape_of(quad, tile.centre), options.straight_corners)) {
+      params.fail("topology", "this division has a quadrilateral without a patch: " + defect->text +
+                                  " (Cobb 1988, section 7)");
+    }
+    QuadPatch patch = quad_patch(quad, options);
+    if (!patch.regular) params.fail("middle_weight", "the patches may fold with this middle weight");
+    patches.emplace_back(std::move(patch.net));
+  }
+  share_control_points(patches);
+  return patches;
+}
+
 Surface build(Params& params) {
-  const std::string topology = params.choice("topology", {"hemispheres", "cube"}, "cube");
+  const Value* given = params.raw("topology");
+  // Not among the choices, as it cannot be built: the tool says why.
+  const bool impossible = given && given->string == "tetrahedron_pairs";
+  const std::string topology =
+      impossible ? given->string
+                 : params.choice(
+                       "topology",
+                       {"hemispheres", "cube", "icosahedron_pairs", "octahedron_pairs", "tetrahedron_quads",
+                        "octahedron_quads", "icosahedron_quads", "rhombicuboctahedron"},
+                       "cube");
   const double middle = params.number("middle_weight", 1.0, Range::positive());
+  const CornerWeights corners = read_corner_weights(params);
+  // Known everywhere, read only where it has a meaning.
+  std::int64_t reading = 54;
+  if (params.has("reading") && topology == "rhombicuboctahedron") {
+    reading = params.integer("reading", 42, 54);
+    if (reading != 42 && reading != 54) params.fail("reading", "\"reading\" must be 42 or 54");
+  }
   Surface surface;
   surface.closed = true;
   if (topology == "cube") {
-    const TensorNet south = sphere_patch(cube_square(middle), 1);
-    for (const AxisRotation& turn : face_rotations) surface.patches.push_back(rotated(south, turn));
+    surface.patches = cube(middle);
+  } else if (topology == "hemispheres") {
+    surface.patches = hemispheres(middle);
   } else {
-    const TensorNet south = sphere_patch(disk(2, middle), 1);
-    // A half turn about x = y, z = 0: the boundary maps to itself and the net keeps its orientation.
-    const AxisRotation half_turn{{1, 0, 2}, {1.0, 1.0, -1.0}};
-    surface.patches.push_back(rotated(south, AxisRotation{{0, 1, 2}, {1.0, 1.0, 1.0}}));
-    surface.patches.push_back(rotated(south, half_turn));
+    QuadPatchOptions options;
+    options.corner_weights = corners;
+    options.middle_weight = middle;
+    options.may_double = false;
+    surface.patches = polyhedral(params, tiles_of(topology, reading), options);
   }
   return surface;
 }
@@ -65,11 +118,21 @@ Surface build(Params& params) {
 void register_sphere_tiling(Registry& registry) {
   registry.add(SurfaceFamily{
       "sphere_tiling",
-      "the whole unit sphere in biquartic patches (Cobb 1988, Tables 2 and 4)",
-      {{"topology", "\"hemispheres\" or \"cube\"", "\"cube\"",
-        "two hemispheres, singular at four points of the equator, or six regular faces"},
+      "the whole unit sphere in biquartic patches (Cobb 1988, sections 5 to 7)",
+      {{"topology",
+        "\"hemispheres\", \"cube\", \"icosahedron_pairs\", \"octahedron_pairs\", \"tetrahedron_quads\", "
+        "\"octahedron_quads\", \"icosahedron_quads\" or \"rhombicuboctahedron\"",
+        "\"cube\"",
+        "2 hemispheres, singular at four points of the equator; 6 faces of a cube; triangles of a polyhedron "
+        "joined in pairs (10, or 4 with two singular corners each) or divided in three (12, 24, 60); the "
+        "rhombicuboctahedron with divided triangles. All but hemispheres and octahedron_pairs are regular"},
+       {"reading", "42 or 54", "54 for the rhombicuboctahedron, which alone takes it",
+        "54: edge to edge, the twelve squares between the axes halved; 42: whole squares, beside which the "
+        "triangles have a corner in the middle of the edge"},
        {"middle_weight", "number > 0", "1",
-        "weight of the planar patch's middle control point; moves parameters, not the surface"}},
+        "weight of the planar patches' middle control point, in units of the mean of their corners' weights; "
+        "moves parameters, not the surface"},
+       corner_weights_doc()},
       build});
 }
 

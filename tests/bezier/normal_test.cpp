@@ -12,7 +12,7 @@
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/bezier/triangle.h"
-#include "surfaces/stereographic_patch.h"
+#include "renderer/projective/planar_patch.h"
 #include "tests/bezier/oracle.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"

@@ -95,11 +95,11 @@ TEST_CASE("The reference's ray cases come out as they should", "[hits]") {
   INFO("t: " << totals.t.text());
   INFO("point: " << totals.point.text());
   INFO("parameters: " << totals.parameter.text());
-  CHECK(files == 11);
+  CHECK(files == 30);
   CHECK(totals.wrong == 0);
   CHECK(totals.t.failures() == 0);
   CHECK(totals.point.failures() == 0);
   CHECK(totals.parameter.failures() == 0);
-  CHECK(totals.hits > 250);
+  CHECK(totals.hits > 600);
   CHECK(totals.ambiguous < totals.rays / 5);
 }

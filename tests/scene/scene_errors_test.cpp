@@ -102,7 +102,7 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"torus\"}",
        "s.json:1:24: unknown type \"torus\"; known: \"bezier\", \"sphere\", \"sphere_cap\", "
        "\"sphere_octant\", "
-       "\"sphere_tiling\""},
+       "\"sphere_tiling\", \"spherical_quad\", \"stereographic_patch\""},
       {"{\"type\": \"sphere\", \"radius\": 0}",
        "s.json:1:44: \"radius\" must be a number greater than 0, found 0"},
       {"{\"type\": \"sphere\", \"center\": 0}",
@@ -120,8 +120,9 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",
        "s.json:1:47: \"z_max\" must be a number in (-1, 1), found 1"},
       {"{\"type\": \"sphere_tiling\", \"topology\": \"cubes\"}",
-       "s.json:1:53: \"topology\" must be one of \"hemispheres\", \"cube\", found \"cubes\"; did you mean "
-       "\"cube\"?"},
+       "s.json:1:53: \"topology\" must be one of \"hemispheres\", \"cube\", \"icosahedron_pairs\", "
+       "\"octahedron_pairs\", \"tetrahedron_quads\", \"octahedron_quads\", \"icosahedron_quads\", "
+       "\"rhombicuboctahedron\", found \"cubes\"; did you mean \"cube\"?"},
       {"{\"type\": \"sphere\", \"transform\": 1}", "s.json:1:47: " + matrix},
       {"{\"type\": \"sphere\", \"transform\": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}", "s.json:1:47: " + matrix},
       {"{\"type\": \"sphere\", \"transform\": [[1,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}",

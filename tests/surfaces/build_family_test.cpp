@@ -17,6 +17,8 @@ Registry all_families() {
   register_sphere_cap(registry);
   register_sphere_octant(registry);
   register_sphere_tiling(registry);
+  register_spherical_quad(registry);
+  register_stereographic_patch(registry);
   return registry;
 }
 
@@ -56,7 +58,7 @@ TEST_CASE("every family describes itself", "[surfaces]") {
       CHECK_FALSE(parameter.meaning.empty());
     }
   }
-  CHECK(registry.family_names().size() == 5);
+  CHECK(registry.family_names().size() == 7);
 }
 
 TEST_CASE("the sphere is analytic, of radius 1, and closed", "[surfaces]") {
