@@ -88,7 +88,7 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
     bool better = false;
     // The last trial is the correction alone.
     for (double part = std::fmin(1.0, 0.5 / length); !better; part *= 0.25) {
-      if (!(part * length > 1e-14)) part = 0.0;
+      if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
       dvec2 q = Shape::clamp(p - part * full);
       const FirstOrder<dvec2> at = projected(net, ray, q);
       const dvec2 strong = strong_direction(at), slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
