@@ -1,116 +1,39 @@
 #include "renderer/bezier/rational.h"
 
+#include "renderer/bezier/dispatch.h"
 #include "renderer/bezier/triangle.h"
 
 namespace rondure {
 namespace {
 
 FirstOrder<dvec4> first(const TensorNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.m * 100 + net.n) {
-    case 202:
-      return tensor_first<2, 2>(p, 2, 2, u, v);
-    case 204:
-      return tensor_first<2, 4>(p, 2, 4, u, v);
-    case 402:
-      return tensor_first<4, 2>(p, 4, 2, u, v);
-    case 404:
-      return tensor_first<4, 4>(p, 4, 4, u, v);
-    default:
-      return tensor_first(p, net.m, net.n, u, v);
-  }
+  return with_degrees(net.m, net.n, [&](auto m, auto n) {
+    return tensor_first<m, n>(net.points.data(), net.m, net.n, u, v);
+  });
 }
 
 SecondOrder<dvec4> second(const TensorNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.m * 100 + net.n) {
-    case 202:
-      return tensor_second<2, 2>(p, 2, 2, u, v);
-    case 204:
-      return tensor_second<2, 4>(p, 2, 4, u, v);
-    case 402:
-      return tensor_second<4, 2>(p, 4, 2, u, v);
-    case 404:
-      return tensor_second<4, 4>(p, 4, 4, u, v);
-    default:
-      return tensor_second(p, net.m, net.n, u, v);
-  }
+  return with_degrees(net.m, net.n, [&](auto m, auto n) {
+    return tensor_second<m, n>(net.points.data(), net.m, net.n, u, v);
+  });
 }
 
 dvec4 value(const TensorNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.m * 100 + net.n) {
-    case 202:
-      return tensor_value<2, 2>(p, 2, 2, u, v);
-    case 204:
-      return tensor_value<2, 4>(p, 2, 4, u, v);
-    case 402:
-      return tensor_value<4, 2>(p, 4, 2, u, v);
-    case 404:
-      return tensor_value<4, 4>(p, 4, 4, u, v);
-    default:
-      return tensor_value(p, net.m, net.n, u, v);
-  }
+  return with_degrees(net.m, net.n, [&](auto m, auto n) {
+    return tensor_value<m, n>(net.points.data(), net.m, net.n, u, v);
+  });
 }
 
 FirstOrder<dvec4> first(const TriangleNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.n) {
-    case 1:
-      return triangle_first<1>(p, 1, u, v);
-    case 2:
-      return triangle_first<2>(p, 2, u, v);
-    case 3:
-      return triangle_first<3>(p, 3, u, v);
-    case 4:
-      return triangle_first<4>(p, 4, u, v);
-    case 5:
-      return triangle_first<5>(p, 5, u, v);
-    case 6:
-      return triangle_first<6>(p, 6, u, v);
-    default:
-      return triangle_first(p, net.n, u, v);
-  }
+  return with_degree(net.n, [&](auto n) { return triangle_first<n>(net.points.data(), net.n, u, v); });
 }
 
 SecondOrder<dvec4> second(const TriangleNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.n) {
-    case 1:
-      return triangle_second<1>(p, 1, u, v);
-    case 2:
-      return triangle_second<2>(p, 2, u, v);
-    case 3:
-      return triangle_second<3>(p, 3, u, v);
-    case 4:
-      return triangle_second<4>(p, 4, u, v);
-    case 5:
-      return triangle_second<5>(p, 5, u, v);
-    case 6:
-      return triangle_second<6>(p, 6, u, v);
-    default:
-      return triangle_second(p, net.n, u, v);
-  }
+  return with_degree(net.n, [&](auto n) { return triangle_second<n>(net.points.data(), net.n, u, v); });
 }
 
 dvec4 value(const TriangleNet& net, double u, double v) {
-  const dvec4* p = net.points.data();
-  switch (net.n) {
-    case 1:
-      return triangle_value<1>(p, 1, u, v);
-    case 2:
-      return triangle_value<2>(p, 2, u, v);
-    case 3:
-      return triangle_value<3>(p, 3, u, v);
-    case 4:
-      return triangle_value<4>(p, 4, u, v);
-    case 5:
-      return triangle_value<5>(p, 5, u, v);
-    case 6:
-      return triangle_value<6>(p, 6, u, v);
-    default:
-      return triangle_value(p, net.n, u, v);
-  }
+  return with_degree(net.n, [&](auto n) { return triangle_value<n>(net.points.data(), net.n, u, v); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
+#include "renderer/bezier/dispatch.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 
@@ -45,14 +46,11 @@ struct TensorShape {
   }
   template <class T>
   FirstOrder<T> first(const T* f, dvec2 p) const {
-    if (m == 4 && n == 4) return tensor_first<4, 4>(f, 4, 4, p.x, p.y);
-    return tensor_first(f, m, n, p.x, p.y);
+    return with_degrees(m, n, [&](auto a, auto b) { return tensor_first<a, b>(f, m, n, p.x, p.y); });
   }
   template <class T>
   SecondOrder<T> second(const T* f, dvec2 p) const {
-    if (m == 4 && n == 4) return tensor_second<4, 4>(f, 4, 4, p.x, p.y);
-    if (m == 2 && n == 2) return tensor_second<2, 2>(f, 2, 2, p.x, p.y);
-    return tensor_second(f, m, n, p.x, p.y);
+    return with_degrees(m, n, [&](auto a, auto b) { return tensor_second<a, b>(f, m, n, p.x, p.y); });
   }
   template <class T>
   void restrict_to(const T* patch, const Cell& c, T* out) const {
@@ -117,11 +115,11 @@ struct TriangleShape {
   }
   template <class T>
   FirstOrder<T> first(const T* f, dvec2 p) const {
-    return triangle_first(f, n, p.x, p.y);
+    return with_degree(n, [&](auto a) { return triangle_first<a>(f, n, p.x, p.y); });
   }
   template <class T>
   SecondOrder<T> second(const T* f, dvec2 p) const {
-    return triangle_second(f, n, p.x, p.y);
+    return with_degree(n, [&](auto a) { return triangle_second<a>(f, n, p.x, p.y); });
   }
   template <class T>
   void restrict_to(const T* patch, const Cell& c, T* out) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/dispatch.h"
 #include "renderer/intersect/projected_net.h"
 
 namespace rondure {
@@ -23,29 +24,6 @@ struct Inverse {
     return dvec2(std::fabs(aa) * f.x + std::fabs(ab) * f.y, std::fabs(ba) * f.x + std::fabs(bb) * f.y);
   }
 };
-
-// Whether a combination of the two planes keeps clear of the whole leaf. For a grazing ray the inverse of the
-// Jacobian proves nothing, but the plane through the ray that lies along the leaf (the combination with the
-// least gradient) does.
-bool some_plane_misses(const Leaf& leaf, const LocalRay& ray, dvec2 f, dvec2 da, dvec2 db, double half_width,
-                       double error) {
-  const double xx = da.x * da.x + db.x * db.x, yy = da.y * da.y + db.y * db.y, xy = da.x * da.y + db.x * db.y;
-  // Eigenvectors of the Gram matrix of the gradients: the least gradient, and at right angles to it the
-  // greatest.
-  const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
-  dvec2 c = split > 0.0 ? dvec2(-xy, split + root) : dvec2(root - split, -xy);
-  const double length = glm::length(c);
-  if (!(length > 0.0)) return false;
-  c /= length;
-  const dvec4 spread = leaf.spread_a + leaf.spread_b;
-  for (int k = 0; k < 2; ++k) {
-    const dvec4 plane = glm::abs(c.x * ray.plane[0] + c.y * ray.plane[1]);
-    const double reach = std::fabs(glm::dot(c, da)) + std::fabs(glm::dot(c, db)) + glm::dot(plane, spread);
-    if (std::fabs(glm::dot(c, f)) > half_width * reach + 3.0 * error) return true;
-    c = dvec2(-c.y, c.x);
-  }
-  return false;
-}
 
 template <class Shape, class Evaluate>
 NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay& ray, double error,
@@ -68,10 +46,7 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
     misses = p.x < -room.x || p.y < -room.y || p.x + p.y > 1.0 + room.x + room.y;
   const bool finite = std::isfinite(room.x + room.y);
   if (misses && finite) return NewtonVerdict::none;
-  if (!finite || !(std::max(slack.x, slack.y) < contraction_limit)) {
-    const bool clear = some_plane_misses(leaf, ray, f, da, db, Shape::half_width(), error);
-    return clear ? NewtonVerdict::none : NewtonVerdict::undecided;
-  }
+  if (!finite || !(std::max(slack.x, slack.y) < contraction_limit)) return NewtonVerdict::undecided;
 
   ++counts.iterated;
   for (int k = 0; k < step_limit; ++k) {
@@ -99,20 +74,22 @@ NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate, const LocalRay&
   return NewtonVerdict::undecided;
 }
 
-template <int M, int N>
-NewtonVerdict search_tensor(const Leaf& leaf, const TensorNet& net, const LocalRay& ray, double error,
-                            Root& root, NewtonCounts& counts) {
-  const auto evaluate = [&](dvec2 p) {
-    return tensor_first<M, N>(net.points.data(), net.m, net.n, p.x, p.y);
-  };
-  return search<TensorShape>(leaf, evaluate, ray, error, root, counts);
+NewtonVerdict search_net(const Leaf& leaf, const TensorNet& net, const LocalRay& ray, double error,
+                         Root& root, NewtonCounts& counts) {
+  return with_degrees(net.m, net.n, [&](auto m, auto n) {
+    const auto evaluate = [&](dvec2 p) {
+      return tensor_first<m, n>(net.points.data(), net.m, net.n, p.x, p.y);
+    };
+    return search<TensorShape>(leaf, evaluate, ray, error, root, counts);
+  });
 }
 
-template <int N>
-NewtonVerdict search_triangle(const Leaf& leaf, const TriangleNet& net, const LocalRay& ray, double error,
-                              Root& root, NewtonCounts& counts) {
-  const auto evaluate = [&](dvec2 p) { return triangle_first<N>(net.points.data(), net.n, p.x, p.y); };
-  return search<TriangleShape>(leaf, evaluate, ray, error, root, counts);
+NewtonVerdict search_net(const Leaf& leaf, const TriangleNet& net, const LocalRay& ray, double error,
+                         Root& root, NewtonCounts& counts) {
+  return with_degree(net.n, [&](auto n) {
+    const auto evaluate = [&](dvec2 p) { return triangle_first<n>(net.points.data(), net.n, p.x, p.y); };
+    return search<TriangleShape>(leaf, evaluate, ray, error, root, counts);
+  });
 }
 
 }  // namespace
@@ -120,42 +97,8 @@ NewtonVerdict search_triangle(const Leaf& leaf, const TriangleNet& net, const Lo
 NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error, Root& root,
                              NewtonCounts& counts) noexcept {
   ++counts.leaves;
-  NewtonVerdict verdict;
-  if (const auto* tensor = std::get_if<TensorNet>(&net)) {
-    const int m = tensor->m, n = tensor->n;
-    if (m == 4 && n == 4)
-      verdict = search_tensor<4, 4>(leaf, *tensor, ray, error, root, counts);
-    else if (m == 2 && n == 2)
-      verdict = search_tensor<2, 2>(leaf, *tensor, ray, error, root, counts);
-    else if (m == 2 && n == 4)
-      verdict = search_tensor<2, 4>(leaf, *tensor, ray, error, root, counts);
-    else
-      verdict = search_tensor<dynamic, dynamic>(leaf, *tensor, ray, error, root, counts);
-  } else {
-    const auto& triangle = std::get<TriangleNet>(net);
-    switch (triangle.n) {
-      case 1:
-        verdict = search_triangle<1>(leaf, triangle, ray, error, root, counts);
-        break;
-      case 2:
-        verdict = search_triangle<2>(leaf, triangle, ray, error, root, counts);
-        break;
-      case 3:
-        verdict = search_triangle<3>(leaf, triangle, ray, error, root, counts);
-        break;
-      case 4:
-        verdict = search_triangle<4>(leaf, triangle, ray, error, root, counts);
-        break;
-      case 5:
-        verdict = search_triangle<5>(leaf, triangle, ray, error, root, counts);
-        break;
-      case 6:
-        verdict = search_triangle<6>(leaf, triangle, ray, error, root, counts);
-        break;
-      default:
-        verdict = search_triangle<dynamic>(leaf, triangle, ray, error, root, counts);
-    }
-  }
+  const NewtonVerdict verdict =
+      std::visit([&](const auto& n) { return search_net(leaf, n, ray, error, root, counts); }, net);
   if (verdict == NewtonVerdict::undecided) ++counts.undecided;
   return verdict;
 }
