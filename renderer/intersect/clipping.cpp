@@ -7,15 +7,15 @@
 
 #include "renderer/intersect/fold.h"
 #include "renderer/intersect/parameter_clip.h"
+#include "renderer/intersect/strong_direction.h"
 
 namespace rondure {
 namespace {
 
 constexpr int depth_limit = 112;  // 53 halvings of each parameter, and a few clips
-constexpr std::size_t cell_limit =
-    1 << 14;                         // a tangential ray takes tens; a net that takes this many is broken
+// A tangential ray takes tens; a net that takes this many is broken.
+constexpr std::size_t cell_limit = 1 << 14;
 constexpr double contraction = 0.3;  // below 1/3, full Newton steps converge from anywhere in the cell
-
 constexpr double point_size = 16.0;  // times the rounding error: what is so small is one candidate
 
 enum class Outcome { finished, divide };
@@ -34,7 +34,7 @@ struct Workspace {
 template <class Shape>
 class Search {
  public:
-  Search(const Shape& shape, const dvec2* patch, double error, RootList& roots, SearchCounts& counts)
+  Search(const Shape& shape, const dvec2* patch, double error, std::vector<Root>& roots, SearchCounts& counts)
       : shape_(shape),
         size_(static_cast<std::size_t>(shape.size())),
         patch_(patch),
@@ -78,7 +78,7 @@ class Search {
   const std::size_t size_;
   const dvec2* patch_;
   const double error_;
-  RootList& roots_;
+  std::vector<Root>& roots_;
   SearchCounts& counts_;
   Workspace* work_;
   glm::dmat2 inverse_{1.0};  // of the Jacobian at the centre of the cell last examined
@@ -109,7 +109,7 @@ class Search {
       if (g.avoids_zero(band)) return Outcome::finished;
       if (std::max(band.x, band.y) < 0.1 && is_simple(f)) return solve_simple(f, cell, band);
     }
-    return try_fold(f, frame, jacobian);
+    return try_fold(f, frame, middle.du, middle.dv);
   }
 
   dvec2 preconditioned_error() const {
@@ -153,22 +153,19 @@ class Search {
     return Outcome::finished;
   }
 
-  Outcome try_fold(const dvec2* f, const Frame<Shape>& frame, const glm::dmat2& jacobian) {
+  // `du`, `dv`: the derivatives of the pair at the cell's centre.
+  Outcome try_fold(const dvec2* f, const Frame<Shape>& frame, dvec2 du, dvec2 dv) {
     const typename Shape::Cell& cell = frame.cell;
     // Turn the two planes about the ray so that the first polynomial takes all of the gradient that one can
     // take.
-    const dvec2 row0(jacobian[0].x, jacobian[1].x), row1(jacobian[0].y, jacobian[1].y);
-    const double angle =
-        0.5 * std::atan2(2.0 * glm::dot(row0, row1), glm::dot(row0, row0) - glm::dot(row1, row1));
-    const double c = std::cos(angle), s = std::sin(angle);
+    const dvec2 strong = strong_direction(du, dv), weak(-strong.y, strong.x);
     dvec2* t = work_->turned.data();
-    for (std::size_t k = 0; k < size_; ++k) t[k] = dvec2(c * f[k].x + s * f[k].y, c * f[k].y - s * f[k].x);
+    for (std::size_t k = 0; k < size_; ++k) t[k] = dvec2(glm::dot(strong, f[k]), glm::dot(weak, f[k]));
     const Hull h = hull_of(t, size_);
     if (h.avoids_zero(dvec2(error_))) return Outcome::finished;
 
     if (!shape_.can_derive_a() || !shape_.can_derive_b()) return Outcome::divide;
-    const dvec2 gradient = c * row0 + s * row1;
-    const bool swapped = std::fabs(gradient.x) > std::fabs(gradient.y);
+    const bool swapped = std::fabs(glm::dot(strong, du)) > std::fabs(glm::dot(strong, dv));
     const DerivativeNets nets{work_->first[0].data(), work_->first[1].data(), work_->second.data()};
     const Slopes slopes = slopes_of(shape_, t, swapped, nets);
     if (slopes.y[0].contains_zero()) return Outcome::divide;
@@ -254,7 +251,7 @@ class Search {
     // Half an ulp of each parameter moves the point by this much, on a steep patch by more than its rounding.
     const double resolution = unit_roundoff * (size(s.du) + size(s.dv));
     if (residual <= point_size * error_ + resolution)
-      roots_.push({p.x, p.y, tangent || residual > 0.25 * error_});
+      roots_.push_back({p.x, p.y, tangent || residual > 0.25 * error_});
   }
 
   void halve(int level, Frame<Shape>* frames) {
@@ -297,12 +294,12 @@ class Search {
 }  // namespace
 
 void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error,
-                RootList& roots, SearchCounts& counts) noexcept {
+                std::vector<Root>& roots, SearchCounts& counts) noexcept {
   Search<TensorShape>(shape, f, error, roots, counts).run(cell);
 }
 
 void find_roots(const TriangleShape& shape, const dvec2* f, const TriangleCell& cell, double error,
-                RootList& roots, SearchCounts& counts) noexcept {
+                std::vector<Root>& roots, SearchCounts& counts) noexcept {
   Search<TriangleShape>(shape, f, error, roots, counts).run(cell);
 }
 

@@ -4,8 +4,7 @@
 // projected polynomials. A cell of the parameter domain is finished as soon as one of these is shown:
 //   empty   the Bernstein hull of a polynomial, or of a combination of the two, keeps away from zero;
 //   simple  the preconditioned Jacobian stays near the identity over the cell, so that there is one root at
-//   most
-//           and Newton's method finds it (Krawczyk 1969);
+//           most and Newton's method finds it (Krawczyk 1969);
 //   fold    one polynomial is a graph over the cell, and the other is convex along it: two roots at most, at
 //           either side of the extremum. Tangential rays and singular corners end here, at any distance;
 //   point   both polynomials are within a few rounding errors of zero all over the cell.
@@ -13,6 +12,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/root.h"
@@ -31,8 +31,8 @@ struct SearchCounts {
 // ray that runs inside the surface (a line of a plane or ruled surface) has no isolated root there and none
 // is reported.
 void find_roots(const TensorShape& shape, const dvec2* f, const RectangleCell& cell, double error,
-                RootList& roots, SearchCounts& counts) noexcept;
+                std::vector<Root>& roots, SearchCounts& counts) noexcept;
 void find_roots(const TriangleShape& shape, const dvec2* f, const TriangleCell& cell, double error,
-                RootList& roots, SearchCounts& counts) noexcept;
+                std::vector<Root>& roots, SearchCounts& counts) noexcept;
 
 }  // namespace rondure

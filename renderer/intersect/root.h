@@ -1,8 +1,6 @@
 // What a patch solver finds: parameters, and how far rounding may have moved them.
 #pragma once
 
-#include <cstddef>
-
 #include "renderer/api/patch.h"
 #include "renderer/intersect/local_ray.h"
 
@@ -14,9 +12,8 @@ inline constexpr double unit_roundoff = 0x1p-53;
 // Bound on the error of plane . S(u, v), divided by the sum of |P_ij.xyz| B_ij + |base| |P_ij.w| B_ij there.
 //
 // Counted in units of roundoff: 1 for the rounded net, 2 for the plane normals being across d only to
-// rounding
-// (|s| <= 2 radii), 2 for the plane's distance, 3 for the dot product of four terms, and, since Bernstein
-// sums are convex combinations, at most 4 more for their evaluation in the interior of the patch.
+// rounding (|s| <= 2 radii), 2 for the plane's distance, 3 for the dot product of four terms, and, since
+// Bernstein sums are convex combinations, at most 4 more for their evaluation in the interior of the patch.
 inline constexpr double residual_roundoffs = 12.0;
 
 // Bounds of |xyz| and |w| (each as the largest component) that rounding errors are relative to.
@@ -32,29 +29,7 @@ inline double residual_bound(const NetScale& scale, const LocalRay& ray) {
 struct Root {
   double u = 0.0;
   double v = 0.0;
-  bool tangent =
-      false;  // tangential or singular within rounding: the parameters are good to half the digits only
-};
-
-// Roots of one patch, in no order. A patch of degree (12, 12) may have hundreds in theory; in a leaf there
-// are few, and beyond the capacity the count tells that some were dropped.
-class RootList {
- public:
-  static constexpr std::size_t capacity = 64;
-
-  void push(const Root& root) noexcept {
-    if (count_ < capacity) roots_[count_] = root;
-    ++count_;
-  }
-  void clear() noexcept { count_ = 0; }
-  std::size_t size() const noexcept { return count_ < capacity ? count_ : capacity; }
-  bool overflowed() const noexcept { return count_ > capacity; }
-  const Root* begin() const noexcept { return roots_; }
-  const Root* end() const noexcept { return roots_ + size(); }
-
- private:
-  Root roots_[capacity];
-  std::size_t count_ = 0;
+  bool tangent = false;  // tangential or singular within rounding: good to half the digits only
 };
 
 }  // namespace rondure

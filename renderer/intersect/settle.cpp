@@ -6,6 +6,7 @@
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/projected_net.h"
+#include "renderer/intersect/strong_direction.h"
 
 namespace rondure {
 namespace {
@@ -60,17 +61,6 @@ FirstOrder<dvec2> projected(const Net& net, const LocalRay& ray, dvec2 p) {
   return {project(ray, s.value), project(ray, s.du), project(ray, s.dv)};
 }
 
-// The direction in the plane of the two residuals along which the patch moves most: the greater eigenvector
-// of J J^T.
-dvec2 strong_direction(const FirstOrder<dvec2>& s) {
-  const double xx = s.du.x * s.du.x + s.dv.x * s.dv.x, yy = s.du.y * s.du.y + s.dv.y * s.dv.y,
-               xy = s.du.x * s.du.y + s.dv.x * s.dv.y;
-  const double split = 0.5 * (xx - yy), root = std::sqrt(split * split + xy * xy);
-  const dvec2 c = split > 0.0 ? dvec2(split + root, xy) : dvec2(xy, root - split);
-  const double length = glm::length(c);
-  return length > 0.0 ? c / length : dvec2(1.0, 0.0);
-}
-
 // Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch
 // hardly moves, and curvature throws it off the other equation; so each trial step, shortened until it helps,
 // is followed by a correction of the strong equation alone. Kept only when the residual falls; done when it
@@ -91,7 +81,8 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
       if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
       dvec2 q = Shape::clamp(p - part * full);
       const FirstOrder<dvec2> at = projected(net, ray, q);
-      const dvec2 strong = strong_direction(at), slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
+      const dvec2 strong = strong_direction(at.du, at.dv),
+                  slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
       const double steepness = glm::dot(slope, slope);
       if (steepness > 0.0)
         q = Shape::clamp(q - slope * (glm::dot(strong, extended_residual(net, ray, q)) / steepness));

@@ -10,8 +10,8 @@ SolverCounts& thread_counts() noexcept {
   return counts;
 }
 
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, RootList& roots,
-                SolverCounts& counts) noexcept {
+void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
+                std::vector<Root>& roots, SolverCounts& counts) noexcept {
   const double error = residual_bound(leaf.scale, ray);
   if (solver == Solver::newton) {
     Root root;
@@ -19,7 +19,7 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
       case NewtonVerdict::none:
         return;
       case NewtonVerdict::root:
-        if (settle(net, leaf.scale, ray, root)) roots.push(root);
+        if (settle(net, leaf.scale, ray, root)) roots.push_back(root);
         return;
       case NewtonVerdict::undecided:
         break;
@@ -28,7 +28,9 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
   constexpr int largest_net = (max_degree + 1) * (max_degree + 1);
   dvec2 projected[largest_net];
   project_net(points_of(net), ray, projected);
-  RootList candidates;
+  // Kept by the thread, so that nothing is allocated once it is warm.
+  static thread_local std::vector<Root> candidates;
+  candidates.clear();
   if (const auto* tensor = std::get_if<TensorNet>(&net))
     find_roots(TensorShape{tensor->m, tensor->n}, projected, rectangle_of(leaf), error, candidates,
                counts.search);
@@ -36,7 +38,7 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
     find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, triangle_of(leaf), error, candidates,
                counts.search);
   for (Root root : candidates)
-    if (settle(net, leaf.scale, ray, root)) roots.push(root);
+    if (settle(net, leaf.scale, ray, root)) roots.push_back(root);
 }
 
 }  // namespace rondure

@@ -15,8 +15,9 @@ struct SolverCounts {
 // The calling thread's counts, for benchmarks and tests.
 SolverCounts& thread_counts() noexcept;
 
-// Roots of the ray on the leaf, settled. `newton` hands leaves that it cannot decide to `clipping`.
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray, RootList& roots,
-                SolverCounts& counts) noexcept;
+// Adds the roots of the ray on the leaf, settled, in no order. `newton` hands leaves that it cannot decide to
+// `clipping`.
+void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
+                std::vector<Root>& roots, SolverCounts& counts) noexcept;
 
 }  // namespace rondure

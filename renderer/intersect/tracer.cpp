@@ -123,7 +123,8 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   if (!meets_box(q, compiled.set.boxes[leaf_index])) return false;
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
-  RootList roots;
+  static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
+  roots.clear();
   solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
   const double rounding = settled_bound(leaf.scale, q.local);
   for (const Root& root : roots) {

@@ -13,7 +13,7 @@
 #include "renderer/intersect/tracer.h"
 #include "tests/bench/embree_baselines.h"
 #include "tests/bench/ray_sets.h"
-#include "tests/intersect/exact_surfaces.h"
+#include "tests/surfaces/build_family.h"
 
 using namespace rondure;
 using namespace rondure::bench;
@@ -89,12 +89,12 @@ std::vector<TracedSurface> many_tilings(const Surface& tiling, int count) {
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 7;
   const std::vector<Ray> sets[2] = {coherent_rays(400), incoherent_rays(160'000)};
-  const Surface cube = family_surface(R"({"type": "sphere_tiling", "topology": "cube"})");
-  const Surface hemispheres = family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})");
-  const Surface octants = family_surface(R"({"type": "sphere_octant"})");
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  const Surface hemispheres = build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})");
+  const Surface octants = build_family(R"({"type": "sphere_octant"})");
   const EmbreeBaseline point(EmbreeBaseline::Kind::sphere_point), user(EmbreeBaseline::Kind::user_sphere),
       mesh(EmbreeBaseline::Kind::triangle_mesh, 4'000'000);
-  const Tracer analytic({{family_surface(R"({"type": "sphere"})"), Solver::newton}});
+  const Tracer analytic({{build_family(R"({"type": "sphere"})"), Solver::newton}});
   const Tracer cube_newton({{cube, Solver::newton}}), cube_clipping({{cube, Solver::clipping}});
   const Tracer hemispheres_newton({{hemispheres, Solver::newton}}),
       octants_newton({{octants, Solver::newton}});

@@ -6,8 +6,8 @@
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
 #include "tests/intersect/sphere_reference.h"
+#include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
 using namespace rondure;
@@ -18,7 +18,7 @@ TEST_CASE("A cap is met exactly where the sphere below its rim is", "[hits]") {
   std::string worst = "none";
   WorstCase position;
   for (const double z_max : {-0.9, -0.6, 0.0, 0.3, 0.6, 12.0 / 13.0, 0.99, 0.9999, 0.999999}) {
-    const Tracer tracer({{family_surface(fmt::format(R"({{"type": "sphere_cap", "z_max": {:.17g}}})", z_max)),
+    const Tracer tracer({{build_family(fmt::format(R"({{"type": "sphere_cap", "z_max": {:.17g}}})", z_max)),
                           Solver::newton}});
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -11,7 +11,8 @@
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
+#include "tests/intersect/placed.h"
+#include "tests/surfaces/build_family.h"
 
 using namespace rondure;
 
@@ -19,9 +20,9 @@ namespace {
 
 // Layouts that are hard on float boxes: big and small together, far from the origin, flat, needle-thin.
 std::vector<std::pair<const char*, std::vector<TracedSurface>>> layouts() {
-  const Surface cube = family_surface(R"({"type": "sphere_tiling", "topology": "cube"})");
-  const Surface octant = family_surface(R"({"type": "sphere_octant", "octants": [0]})");
-  const Surface plane = family_surface(R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  const Surface octant = build_family(R"({"type": "sphere_octant", "octants": [0]})");
+  const Surface plane = build_family(R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
       "net": [[[-1, -1, 0, 1], [-1, 1, 0, 1]], [[1, -1, 0, 1], [1, 1, 0, 1]]]}]})");
   const auto flattened = [](Surface s, dvec3 scale) {
     for (Net& net : s.patches)
@@ -54,7 +55,7 @@ std::vector<double> brute_force(const std::vector<TracedSurface>& surfaces, cons
     if (!make_local_ray(ray.origin, ray.direction, surfaces[k].surface.origin, local)) continue;
     for (const Leaf& leaf : sets[k].leaves) {
       const Net& net = surfaces[k].surface.patches[static_cast<std::size_t>(leaf.patch)];
-      RootList roots;
+      std::vector<Root> roots;
       SolverCounts counts;
       solve_leaf(Solver::newton, leaf, net, local, roots, counts);
       for (const Root& root : roots) {

@@ -10,8 +10,8 @@
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
 #include "tests/paths.h"
+#include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
 using namespace rondure;
@@ -30,7 +30,7 @@ struct Totals {
 void check_file(const std::filesystem::path& path, Solver solver, Totals& totals) {
   std::ifstream stream(path);
   const Json data = Json::parse(stream);
-  const Tracer tracer({{family_surface(data["object"].dump()), solver}});
+  const Tracer tracer({{build_family(data["object"].dump()), solver}});
   for (const Json& ray : data["rays"]) {
     ++totals.rays;
     const dvec3 direction = vector_of(ray["direction"]);

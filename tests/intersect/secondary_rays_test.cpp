@@ -8,17 +8,13 @@
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
 
 using namespace rondure;
 
 namespace {
-
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(random), y = normal(random), z = normal(random);
-  return glm::normalize(dvec3(x, y, z) + dvec3(1e-300));
-}
 
 // A direction that makes an angle with the surface of 10^-8 to 1.
 dvec3 grazing(const dvec3& normal, std::mt19937_64& random, double side) {
@@ -39,11 +35,11 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
       for (const double distance : {1e-8, 1.0, 1e8}) {
         // The surface stands `distance` radii from the origin, and the rays come from as far again.
         const dvec3 center = radius * distance * glm::normalize(dvec3(1.0, 2.0, -3.0));
-        const Tracer tracer({{placed(family_surface(family), radius, center), Solver::newton}});
+        const Tracer tracer({{placed(build_family(family), radius, center), Solver::newton}});
         for (int k = 0; k < 1500; ++k) {
           const dvec3 origin = center + radius * (1.5 + distance) * random_direction(random);
-          const dvec3 target = center + 0.98 * radius * random_direction(random) *
-                                            std::uniform_real_distribution<double>(0.0, 1.0)(random);
+          const double depth = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+          const dvec3 target = center + 0.98 * depth * radius * random_direction(random);
           const Hit hit = tracer.closest({origin, target - origin});
           if (!hit) continue;
           ++hits;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/worst_case.h"
@@ -87,6 +88,7 @@ TEST_CASE("Newton, clipping and a grid of starts find the same roots of wavy pat
     int m, n;
   };
   std::mt19937_64 random(3);
+  const std::size_t given_up = thread_counts().search.exhausted;
   long rays = 0, hits = 0, several = 0, disagreements = 0, lost = 0;
   std::string worst = "none";
   WorstCase t;
@@ -137,6 +139,7 @@ TEST_CASE("Newton, clipping and a grid of starts find the same roots of wavy pat
   CHECK(disagreements == 0);
   CHECK(lost == 0);
   CHECK(t.failures() == 0);
+  CHECK(thread_counts().search.exhausted == given_up);
   CHECK(hits > rays / 3);
   CHECK(several > rays / 20);
 }

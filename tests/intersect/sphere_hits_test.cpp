@@ -9,10 +9,13 @@
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/local_ray.h"
+#include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
 #include "tests/intersect/sphere_reference.h"
+#include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
 using namespace rondure;
@@ -32,12 +35,13 @@ constexpr double t_tolerance = 8.0 * ulp;
 struct Tally {
   WorstCase position, t;
   long rays = 0, hits = 0, in_band = 0, wrong_count = 0, disagreements = 0;
+  std::size_t exhausted = 0;  // searches that gave up
   double worst_clearance = 0.0;
   std::string worst_miss = "none";
 
   void merge(const Tally& o) {
     rays += o.rays, hits += o.hits, in_band += o.in_band, wrong_count += o.wrong_count,
-        disagreements += o.disagreements;
+        disagreements += o.disagreements, exhausted += o.exhausted;
     if (o.worst_clearance > worst_clearance) worst_clearance = o.worst_clearance, worst_miss = o.worst_miss;
     position.merge(o.position);
     t.merge(o.t);
@@ -71,15 +75,6 @@ struct Load {
   long random, aimed;
 };
 
-dvec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  for (;;) {
-    const double x = normal(random), y = normal(random), z = normal(random);
-    const dvec3 d(x, y, z);
-    if (glm::length(d) > 1e-3) return glm::normalize(d);
-  }
-}
-
 // A point of a patch's boundary, or a corner of it, in the surface's frame.
 dvec3 boundary_point(const Surface& surface, std::mt19937_64& random, bool corner) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -90,66 +85,61 @@ dvec3 boundary_point(const Surface& surface, std::mt19937_64& random, bool corne
   return net_point(surface.patches[patch], swap ? across : along, swap ? along : across);
 }
 
-// Direction and origin of a ray of the kind; `expected` roots, or -1 when the reference alone decides.
+// Every draw is a statement of its own: within an expression their order would be the compiler's choice.
 Ray make_ray(const Case& c, Kind kind, std::mt19937_64& random, bool& starts_inside) {
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const dvec3 d = random_direction(random);
-  const dvec3 side = glm::normalize(glm::cross(d, random_direction(random)));
+  const auto draw = [&] { return std::uniform_real_distribution<double>(0.0, 1.0)(random); };
+  const dvec3 d = random_direction(random), across = random_direction(random);
+  const dvec3 side = glm::normalize(glm::cross(d, across));
+  const double a = draw(), b = draw(), e = draw();
   Ray ray;
+  ray.direction = d * std::exp2(std::floor(20.0 * e) - 10.0);  // directions need not be unit vectors
   starts_inside = false;
-  const double scale =
-      std::exp2(std::floor(20.0 * uniform(random)) - 10.0);  // directions need not be unit vectors
-  ray.direction = d * scale;
   const auto set_origin = [&](const dvec3& unit) { ray.origin = c.center + c.radius * unit; };
   const auto aim = [&](double distance, const dvec3& target) {
-    set_origin(random_direction(random) * distance);
-    ray.direction = (c.center + target - ray.origin) * (0.5 + uniform(random));
+    set_origin(d * distance);
+    ray.direction = (c.center + target - ray.origin) * (0.5 + e);
+  };
+  const auto aim_from_either_side = [&](const dvec3& target) {
+    starts_inside = a < 0.5;
+    aim(starts_inside ? 0.9 * b : 1.1 + 3.0 * b, target);
   };
   switch (kind) {
     case Kind::outside:
-      set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * (1.0 + 9.0 * uniform(random) + 0.5));
+      set_origin(side * 1.2 * std::sqrt(a) - d * (1.5 + 9.0 * b));
       break;
     case Kind::inside:
-      set_origin(random_direction(random) * 0.99 * std::cbrt(uniform(random))), starts_inside = true;
+      set_origin(across * 0.99 * std::cbrt(a)), starts_inside = true;
       break;
     case Kind::far_away:
-      set_origin(side * 1.2 * std::sqrt(uniform(random)) - d * 1e6);
+      set_origin(side * 1.2 * std::sqrt(a) - d * 1e6);
       break;
     case Kind::tangential: {
-      const double off = std::pow(10.0, -1.0 - 15.0 * uniform(random));
-      set_origin(side * (uniform(random) < 0.5 ? 1.0 - off : 1.0 + off) - d * (1.5 + uniform(random)));
+      const double off = std::pow(10.0, -1.0 - 15.0 * a);
+      set_origin(side * (b < 0.5 ? 1.0 - off : 1.0 + off) - d * (1.5 + draw()));
       break;
     }
     case Kind::edge:
-    case Kind::corner: {
-      starts_inside = uniform(random) < 0.5;
-      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random),
-          boundary_point(c.surface, random, kind == Kind::corner));
+    case Kind::corner:
+      aim_from_either_side(boundary_point(c.surface, random, kind == Kind::corner));
       break;
-    }
     case Kind::singular: {
       // Towards the corners and poles where tangents are parallel or vanish, missing them by 10^-1 to 10^-17
       // of the radius.
-      starts_inside = uniform(random) < 0.5;
-      const dvec3 near = random_direction(random) * c.radius * std::pow(10.0, -1.0 - 16.0 * uniform(random));
-      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random),
-          boundary_point(c.surface, random, true) + near);
+      const dvec3 near = across * c.radius * std::pow(10.0, -1.0 - 16.0 * draw());
+      aim_from_either_side(boundary_point(c.surface, random, true) + near);
       break;
     }
     case Kind::leaf_corner: {
       // Towards parameters where leaves meet, missing them by 10^-8 to 10^-17 of the radius.
-      starts_inside = uniform(random) < 0.5;
-      const std::size_t patch =
-          std::uniform_int_distribution<std::size_t>(0, c.surface.patches.size() - 1)(random);
-      const double u = std::floor(17.0 * uniform(random)) / 16.0,
-                   v = std::floor(17.0 * uniform(random)) / 16.0;
-      const dvec3 near = random_direction(random) * c.radius * std::pow(10.0, -8.0 - 9.0 * uniform(random));
-      aim(starts_inside ? 0.9 * uniform(random) : 1.1 + 3.0 * uniform(random),
-          net_point(c.surface.patches[patch], u, v) + near);
+      std::uniform_int_distribution<std::size_t> any_patch(0, c.surface.patches.size() - 1);
+      const std::size_t patch = any_patch(random);
+      const double u = std::floor(17.0 * draw()) / 16.0, v = std::floor(17.0 * draw()) / 16.0;
+      const dvec3 near = across * c.radius * std::pow(10.0, -8.0 - 9.0 * draw());
+      aim_from_either_side(net_point(c.surface.patches[patch], u, v) + near);
       break;
     }
     case Kind::from_far_at_edge:
-      aim(1e6, boundary_point(c.surface, random, uniform(random) < 0.5));
+      aim(1e6, boundary_point(c.surface, random, a < 0.5));
       break;
     case Kind::count:
       break;
@@ -218,11 +208,13 @@ Tally check_case(const Case& c, Load load) {
         for (long b = range.begin(); b < range.end(); ++b) {
           std::mt19937_64 random(static_cast<std::uint64_t>(b) + 1);
           const bool aimed = b >= random_blocks;
+          const std::size_t given_up = thread_counts().search.exhausted;
           for (long k = 0; k < block; ++k) {
             const long kind =
                 aimed ? random_kinds + k % (static_cast<long>(Kind::count) - random_kinds) : k % random_kinds;
             check_ray(c, tracer, static_cast<Kind>(kind), aimed || k % 8 == 0, random, tally);
           }
+          tally.exhausted += thread_counts().search.exhausted - given_up;
         }
         return tally;
       },
@@ -242,6 +234,7 @@ void require_clean(const Tally& tally, const std::string& what) {
   INFO("t: " << tally.t.text());
   CHECK(tally.wrong_count == 0);
   CHECK(tally.disagreements == 0);
+  CHECK(tally.exhausted == 0);
   CHECK(tally.position.failures() == 0);
   CHECK(tally.t.failures() == 0);
   // Half of the rays at least hit something: the test has something to say.
@@ -263,9 +256,9 @@ Load load(double random, double aimed) {
 }
 
 std::vector<std::pair<const char*, Surface>> closed_families() {
-  return {{"cube", family_surface(R"({"type": "sphere_tiling", "topology": "cube"})")},
-          {"hemispheres", family_surface(R"({"type": "sphere_tiling", "topology": "hemispheres"})")},
-          {"octants", family_surface(R"({"type": "sphere_octant"})")}};
+  return {{"cube", build_family(R"({"type": "sphere_tiling", "topology": "cube"})")},
+          {"hemispheres", build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})")},
+          {"octants", build_family(R"({"type": "sphere_octant"})")}};
 }
 
 }  // namespace
@@ -296,7 +289,7 @@ TEST_CASE("Clipping alone finds the same", "[hits]") {
 
 TEST_CASE("The analytic sphere passes the same test", "[hits]") {
   // Aimed rays need patches: those of the cube stand in.
-  const Tracer tracer({{family_surface(R"({"type": "sphere"})"), Solver::newton}});
+  const Tracer tracer({{build_family(R"({"type": "sphere"})"), Solver::newton}});
   const Case c{"sphere", closed_families()[0].second, Solver::newton, 1.0, dvec3(0.0)};
   Tally tally;
   std::mt19937_64 random(5);

@@ -1,52 +1,13 @@
-// The helper that builds families for the tests beside it, and the families' own descriptions.
+// The families' own descriptions, and the numbers they take.
 #include "tests/surfaces/build_family.h"
 
-#include "renderer/api/registry.h"
-#include "renderer/scene/json_reader.h"
-#include "surfaces/families.h"
+#include "renderer/plugin/builtin.h"
 #include "tests/catch.h"
-#include "tests/paths.h"
 
 namespace rondure {
-namespace {
-
-Registry all_families() {
-  Registry registry;
-  register_bezier(registry);
-  register_sphere(registry);
-  register_sphere_cap(registry);
-  register_sphere_octant(registry);
-  register_sphere_tiling(registry);
-  register_spherical_quad(registry);
-  register_stereographic_patch(registry);
-  return registry;
-}
-
-}  // namespace
-
-Surface build_family(const std::string& text) {
-  const Registry registry = all_families();
-  // Named as a file of the data folder, so that relative paths start there.
-  const Document document = read_json_text(source_folder() + "/tests/data/object.json", text);
-  Params params(document.root, document.source.get(), "the object");
-  const SurfaceFamily* family = registry.family(params.text("type"));
-  REQUIRE(family != nullptr);
-  Surface surface = family->build(params);
-  params.finish();
-  return surface;
-}
-
-std::string family_error(const std::string& text) {
-  try {
-    build_family(text);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST_CASE("every family describes itself", "[surfaces]") {
-  const Registry registry = all_families();
+  Registry registry;
+  register_builtins(registry);
   for (const std::string& name : registry.family_names()) {
     const SurfaceFamily& family = *registry.family(name);
     INFO(name);

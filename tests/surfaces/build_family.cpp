@@ -1,0 +1,32 @@
+#include "tests/surfaces/build_family.h"
+
+#include "renderer/plugin/builtin.h"
+#include "renderer/scene/json_reader.h"
+#include "tests/paths.h"
+
+namespace rondure {
+
+Surface build_family(const std::string& text) {
+  Registry registry;
+  register_builtins(registry);
+  // Named as a file of the data folder, so that relative paths start there.
+  const Document document = read_json_text(source_folder() + "/tests/data/object.json", text);
+  Params params(document.root, document.source.get(), "the object");
+  const std::string type = params.text("type");
+  const SurfaceFamily* family = registry.family(type);
+  if (family == nullptr) throw std::invalid_argument("no family is called " + type);
+  Surface surface = family->build(params);
+  params.finish();
+  return surface;
+}
+
+std::string family_error(const std::string& text) {
+  try {
+    build_family(text);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace rondure
