@@ -9,8 +9,8 @@
 #include "renderer/api/registry.h"
 #include "renderer/projective/planar_patch.h"
 #include "renderer/projective/shared_points.h"
-#include "surfaces/corner_weights.h"
 #include "surfaces/families.h"
+#include "surfaces/planar_weights.h"
 #include "surfaces/polyhedral_tiles.h"
 
 namespace rondure {
@@ -89,7 +89,7 @@ Surface build(Params& params) {
                        {"hemispheres", "cube", "icosahedron_pairs", "octahedron_pairs", "tetrahedron_quads",
                         "octahedron_quads", "icosahedron_quads", "rhombicuboctahedron"},
                        "cube");
-  const double middle = params.number("middle_weight", 1.0, Range::positive());
+  const double middle = read_middle_weight(params);
   const CornerWeights corners = read_corner_weights(params);
   // Known everywhere, read only where it has a meaning.
   std::int64_t reading = 54;
@@ -129,9 +129,7 @@ void register_sphere_tiling(Registry& registry) {
        {"reading", "42 or 54", "54 for the rhombicuboctahedron, which alone takes it",
         "54: edge to edge, the twelve squares between the axes halved; 42: whole squares, beside which the "
         "triangles have a corner in the middle of the edge"},
-       {"middle_weight", "number > 0", "1",
-        "weight of the planar patches' middle control point, in units of the mean of their corners' weights; "
-        "moves parameters, not the surface"},
+       middle_weight_doc("1"),
        corner_weights_doc()},
       build});
 }

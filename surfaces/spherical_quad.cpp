@@ -5,8 +5,8 @@
 #include <string>
 
 #include "renderer/api/registry.h"
-#include "surfaces/corner_weights.h"
 #include "surfaces/families.h"
+#include "surfaces/planar_weights.h"
 
 namespace rondure {
 namespace {
@@ -141,7 +141,7 @@ Surface build(Params& params) {
   if (const auto defect = defect_of(shape_of(quad, options.centre), false)) refuse(params, *defect);
   options.corner_weights = read_corner_weights(params);
   options.may_double = !params.has("middle_weight");
-  options.middle_weight = params.number("middle_weight", 1.0, Range::positive());
+  options.middle_weight = read_middle_weight(params);
   QuadPatch patch = quad_patch(quad, options);
   if (!patch.regular) params.fail("middle_weight", "the patch may fold with this middle weight");
   Surface surface;
@@ -166,9 +166,7 @@ void register_spherical_quad(Registry& registry) {
        {"projection_center", "direction [x, y, z]",
         "chosen well inside, far from where arcs would bend inward",
         "middle of the stereographic image, which must be convex; one projects from the point opposite"},
-       {"middle_weight", "number > 0", "1, doubled until the patch is regular",
-        "weight of the planar patch's middle control point, in units of the mean of its corners' weights; "
-        "moves parameters, not the surface"},
+       middle_weight_doc("1, doubled until the patch is regular"),
        corner_weights_doc()},
       build});
 }

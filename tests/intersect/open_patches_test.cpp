@@ -9,8 +9,8 @@
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
-#include "tests/intersect/exact_surfaces.h"
 #include "tests/intersect/sphere_reference.h"
+#include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
 using namespace rondure;
@@ -63,7 +63,7 @@ TEST_CASE("A patch bounded by circles is met exactly inside them", "[hits]") {
   WorstCase position;
   for (const Case& c : cases) {
     for (const Solver solver : {Solver::newton, Solver::clipping}) {
-      const Surface surface = family_surface(c.object);
+      const Surface surface = build_family(c.object);
       const Tracer tracer({{surface, solver}});
       std::mt19937_64 random(31);
       std::uniform_real_distribution<double> uniform(-1.0, 1.0);

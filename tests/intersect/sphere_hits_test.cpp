@@ -292,17 +292,18 @@ TEST_CASE("Every other tiling is met as these are", "[hits]") {
                                     R"("topology": "icosahedron_pairs", "corner_weights": "unit")",
                                     R"("topology": "octahedron_pairs")",
                                     R"("topology": "tetrahedron_quads")",
-                                    R"("topology": "octahedron_quads", "middle_weight": 0.25)",
+                                    R"("topology": "octahedron_quads", "middle_weight": 30)",
+                                    R"("topology": "icosahedron_pairs", "middle_weight": 0.001)",
                                     R"("topology": "icosahedron_quads")",
                                     R"("topology": "rhombicuboctahedron", "reading": 42)",
                                     R"("topology": "rhombicuboctahedron", "corner_weights": "unit")"};
   Tally newton, clipping;
   for (const char* which : parameters) {
-    const Surface surface = family_surface(fmt::format(R"({{"type": "sphere_tiling", {}}})", which));
+    const Surface surface = build_family(fmt::format(R"({{"type": "sphere_tiling", {}}})", which));
     const dvec3 center = 0.37 * dvec3(3.1, -2.7, 10.3);
     newton.merge(check_case({which, surface, Solver::newton, 1.0, dvec3(0.0)}, load(16'000, 20'000)));
-    newton.merge(check_case({which, placed(surface, 0.37, center), Solver::newton, 0.37, center},
-                            load(2'000, 4'000)));
+    newton.merge(
+        check_case({which, placed(surface, 0.37, center), Solver::newton, 0.37, center}, load(2'000, 4'000)));
     clipping.merge(check_case({which, surface, Solver::clipping, 1.0, dvec3(0.0)}, load(2'000, 4'000)));
   }
   require_clean(newton, "newton, other tilings");

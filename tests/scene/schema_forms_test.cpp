@@ -142,6 +142,8 @@ TEST_CASE("schema and reader agree on every form and every limit", "[scene]") {
       {true, "/objects/0", R"({"type": "sphere_cap", "middle_weight": 2})"},
       {false, "/objects/0", R"({"type": "sphere_cap", "middle_weight": 0})"},
       {true, "/objects/0", R"({"type": "sphere_tiling", "topology": "hemispheres", "middle_weight": 2})"},
+      {false, "/objects/0", R"({"type": "sphere_tiling", "middle_weight": 101})"},
+      {false, "/objects/0", R"({"type": "sphere_tiling", "middle_weight": 1e-4})"},
       {false, "/objects/0", R"({"type": "sphere_tiling", "topology": "octants"})"},
       {false, "/objects/0", R"({"type": "sphere_tiling", "z_max": 0})"},
       {true, "/objects/0", R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron", "reading": 42})"},
