@@ -125,7 +125,8 @@ void register_sphere_tiling(Registry& registry) {
         "\"cube\"",
         "2 hemispheres, singular at four points of the equator; 6 faces of a cube; triangles of a polyhedron "
         "joined in pairs (10, or 4 with two singular corners each) or divided in three (12, 24, 60); the "
-        "rhombicuboctahedron with divided triangles. All but hemispheres and octahedron_pairs are regular"},
+        "rhombicuboctahedron with divided triangles. All but hemispheres and octahedron_pairs are regular; "
+        "\"tetrahedron_pairs\", with corners of 240 degrees, is refused"},
        {"reading", "42 or 54", "54 for the rhombicuboctahedron, which alone takes it",
         "54: edge to edge, the twelve squares between the axes halved; 42: whole squares, beside which the "
         "triangles have a corner in the middle of the edge"},

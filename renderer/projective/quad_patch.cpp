@@ -24,28 +24,28 @@ void put(PlanarBiquadratic& planar, const int (&place)[2], const lvec3& p) {
 QuadPatch quad_patch(const SphericalQuad& quad, const QuadPatchOptions& options) {
   const Frame frame(options.centre);
   const bool unit = options.corner_weights == CornerWeights::unit;
+  PlanarBiquadratic planar{};
   QuadPatch out{};
   lvec3 corner[4];
   long double mean = 0;
   for (int k = 0; k < 4; ++k) {
     corner[k] = frame.project(quad.corner(k), 1);
-    mean += unit ? 1 : corner[k].z / 4;
+    mean += (unit ? 1 : corner[k].z) / 4;
   }
-  if (unit) mean = 1;
   for (std::size_t k = 0; k < 4; ++k) {
     const SphereArc& arc = quad.arc[k];
     const lvec3 p = corner[k], q = corner[(k + 1) % 4];
-    put(out.planar, corner_place[k], unit ? p / p.z : p);
-    put(out.planar, arc_place[k], frame.project(arc.b, arc.w) / (unit ? std::sqrt(p.z * q.z) : 1));
+    put(planar, corner_place[k], unit ? p / p.z : p);
+    put(planar, arc_place[k], frame.project(arc.b, arc.w) / (unit ? std::sqrt(p.z * q.z) : 1));
   }
   const lvec3 meet = glm::cross(glm::cross(corner[0], corner[2]), glm::cross(corner[1], corner[3]));
   const lvec3 middle = meet / meet.z;
-  put(out.planar, {1, 1}, middle * (options.middle_weight * mean));
+  put(planar, {1, 1}, middle * (options.middle_weight * mean));
   const auto doublings =
-      double_until_regular(out.planar, options.straight_corners, options.may_double ? most_doublings : 0);
+      double_until_regular(planar, options.straight_corners, options.may_double ? most_doublings : 0);
   out.regular = doublings.has_value();
   out.doublings = doublings.value_or(0);
-  out.net = sphere_patch(out.planar, frame);
+  out.net = sphere_patch(planar, frame);
   return out;
 }
 

@@ -25,7 +25,6 @@ struct QuadPatchOptions {
 };
 
 struct QuadPatch {
-  PlanarBiquadratic planar;
   TensorNet net;  // (0,0), (1,0), (1,1), (0,1) are corners 0 to 3; outward
   int doublings;  // of the middle weight
   bool regular;   // certainly; false when the weight does not suffice and may not be doubled any more

@@ -33,7 +33,14 @@ TEST_CASE("exact tilings give the picture of the analytic sphere", "[integrators
   const Film sphere = StagedScene(scene(R"("type": "sphere")")).render();
   for (const char* ball :
        {R"("type": "sphere_tiling", "topology": "cube")",
-        R"("type": "sphere_tiling", "topology": "hemispheres")", R"("type": "sphere_octant")"}) {
+        R"("type": "sphere_tiling", "topology": "hemispheres")", R"("type": "sphere_octant")",
+        R"("type": "sphere_tiling", "topology": "icosahedron_pairs", "corner_weights": "unit")",
+        R"("type": "sphere_tiling", "topology": "octahedron_pairs")",
+        R"("type": "sphere_tiling", "topology": "tetrahedron_quads")",
+        R"("type": "sphere_tiling", "topology": "octahedron_quads", "middle_weight": 5)",
+        R"("type": "sphere_tiling", "topology": "icosahedron_quads")",
+        R"("type": "sphere_tiling", "topology": "rhombicuboctahedron")",
+        R"("type": "sphere_tiling", "topology": "rhombicuboctahedron", "reading": 42)"}) {
     const Film tiled = StagedScene(scene(ball)).render();
     const double rmse = relative_rmse(sphere, tiled);
     INFO(ball << ": relative RMSE " << rmse);

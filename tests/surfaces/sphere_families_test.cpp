@@ -184,6 +184,24 @@ TEST_CASE("the default middle weight keeps every weight of a cap positive", "[su
   CHECK(bounds_of(paper.patches.front()).has_value());
 }
 
+TEST_CASE("the least middle weight of a cap is what the paper's net falls short of", "[surfaces]") {
+  // max(z / (1 - z), sqrt((1 + 4z) / (2 (1 - z)))): 1 at z = 1/6, from where on Table 3 has a weight below 0.
+  const auto negative = [](double z, double middle) {
+    const Surface surface = build_family(
+        fmt::format(R"({{"type": "sphere_cap", "z_max": {:.17g}, "middle_weight": {:.17g}}})", z, middle));
+    const auto& points = points_of(surface.patches.front());
+    return std::any_of(points.begin(), points.end(), [](const dvec4& p) { return p.w < 0.0; });
+  };
+  CHECK_FALSE(negative(1.0 / 6 - 1e-6, 1.0));
+  CHECK(negative(1.0 / 6 + 1e-6, 1.0));
+  for (const double z : {0.2, 0.5, 0.6, 0.85, 0.95, 0.99}) {
+    const double least = std::max(z / (1 - z), std::sqrt((1 + 4 * z) / (2 * (1 - z))));
+    INFO(z);
+    CHECK(negative(z, 0.9999 * least));
+    CHECK_FALSE(negative(z, 1.0001 * least));
+  }
+}
+
 TEST_CASE("neighbours share their edges bit for bit", "[surfaces]") {
   for (const char* text : closed_families) {
     const Surface surface = build_family(text);
