@@ -1,145 +1,17 @@
 // Raw control nets, tensor-product or triangular, from the scene or from a file of the same form.
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "renderer/api/registry.h"
 #include "renderer/bezier/bernstein.h"
 #include "renderer/scene/json_reader.h"
 #include "surfaces/families.h"
+#include "surfaces/net_reader.h"
 
 namespace rondure {
 namespace {
 
-using Kind = Value::Kind;
-
-dvec4 read_point(const Params& patch, const Value& value) {
-  if (value.kind != Kind::array || value.items.size() != 4) {
-    patch.fail(value, "a control point is an array of four numbers, [w x, w y, w z, w]");
-  }
-  dvec4 point(0.0);
-  for (int c = 0; c < 4; ++c) {
-    const Value& item = value.items[static_cast<std::size_t>(c)];
-    if (item.kind != Kind::number || !std::isfinite(item.number)) {
-      patch.fail(item, "a coordinate of a control point must be a finite number");
-    }
-    point[c] = item.number;
-  }
-  return point;
-}
-
-int read_degree(const Params& patch, const Value& value) {
-  if (value.kind != Kind::number || !value.integral || value.number < 1.0 || value.number > max_degree) {
-    patch.fail(value, fmt::format("a degree must be an integer from 1 to {}", max_degree));
-  }
-  return static_cast<int>(value.number);
-}
-
-const Value& required(Params& patch, const char* key) {
-  const Value* value = patch.raw(key);
-  if (value == nullptr) patch.fail(fmt::format("\"{}\" is missing", key));
-  return *value;
-}
-
-void refuse_zero_weights(const Params& patch, const Value& at, const std::vector<dvec4>& points) {
-  for (const dvec4& p : points) {
-    if (p.w != 0.0) return;
-  }
-  patch.fail(at, "every weight is zero: the patch has no point in space (w comes last)");
-}
-
-TensorNet read_tensor(Params& patch) {
-  const Value& degree = required(patch, "degree");
-  if (degree.kind != Kind::array || degree.items.size() != 2) {
-    patch.fail(degree, "the degree of a tensor patch is an array of two integers, [along u, along v]");
-  }
-  TensorNet net(read_degree(patch, degree.items[0]), read_degree(patch, degree.items[1]));
-  const Value& rows = required(patch, "net");
-  const auto row_count = static_cast<std::size_t>(net.m) + 1,
-             column_count = static_cast<std::size_t>(net.n) + 1;
-  if (rows.kind != Kind::array || rows.items.size() != row_count) {
-    patch.fail(rows, fmt::format("the net of a tensor patch of degree [{}, {}] is an array of {} rows{}",
-                                 net.m, net.n, row_count,
-                                 rows.kind == Kind::array ? fmt::format(", not {}", rows.items.size()) : ""));
-  }
-  for (std::size_t i = 0; i < row_count; ++i) {
-    const Value& row = rows.items[i];
-    if (row.kind != Kind::array || row.items.size() != column_count) {
-      patch.fail(row, fmt::format("a row of this net is an array of {} control points{}", column_count,
-                                  row.kind == Kind::array ? fmt::format(", not {}", row.items.size()) : ""));
-    }
-    for (std::size_t j = 0; j < column_count; ++j) {
-      net.points[i * column_count + j] = read_point(patch, row.items[j]);
-    }
-  }
-  refuse_zero_weights(patch, rows, net.points);
-  return net;
-}
-
-// The exponents of u, v, w in a key: "ijk", one digit each, or "i,j,k". False when it is neither.
-bool parse_index(const std::string& key, int index[3]) {
-  const bool separated = key.find(',') != std::string::npos;
-  int part = 0, digits = 0;
-  index[0] = index[1] = index[2] = 0;
-  for (const char c : key) {
-    if (c == ',') {
-      if (digits == 0 || ++part > 2) return false;
-      digits = 0;
-      continue;
-    }
-    if (c < '0' || c > '9') return false;
-    if (!separated && digits == 1) {
-      if (++part > 2) return false;
-      digits = 0;
-    }
-    if (++digits > 2) return false;
-    index[part] = index[part] * 10 + (c - '0');
-  }
-  return part == 2 && digits > 0;
-}
-
-TriangleNet read_triangle(Params& patch) {
-  const Value& degree = required(patch, "degree");
-  TriangleNet net(read_degree(patch, degree));
-  const Value& points = required(patch, "net");
-  if (points.kind != Kind::object) {
-    patch.fail(points, "the net of a triangle is an object with keys \"ijk\" for u^i v^j w^k, or \"i,j,k\"");
-  }
-  std::vector<bool> given(net.points.size(), false);
-  for (const Value::Member& member : points.members) {
-    Value key;
-    key.where = member.where;
-    int index[3];
-    if (!parse_index(member.key, index) || index[0] + index[1] + index[2] != net.n) {
-      patch.fail(key, fmt::format("\"{}\" is no index of this net: \"ijk\" or \"i,j,k\" with i + j + k = {}",
-                                  member.key, net.n));
-    }
-    const auto at = static_cast<std::size_t>(triangle_index(net.n, index[0], index[1]));
-    if (given[at]) patch.fail(key, fmt::format("control point \"{}\" is given twice", member.key));
-    given[at] = true;
-    net.points[at] = read_point(patch, member.value);
-  }
-  for (int i = net.n; i >= 0; --i) {
-    for (int j = net.n - i; j >= 0; --j) {
-      if (given[static_cast<std::size_t>(triangle_index(net.n, i, j))]) continue;
-      const char* form = net.n < 10 ? "{}{}{}" : "{},{},{}";
-      const std::string name = fmt::format(fmt::runtime(form), i, j, net.n - i - j);
-      patch.fail(points, fmt::format("control point \"{}\" is missing", name));
-    }
-  }
-  refuse_zero_weights(patch, points, net.points);
-  return net;
-}
-
 // Adds the patches of the list and returns what "closed" says.
 bool read_patches(Params& params, Surface& surface) {
   for (Params& patch : params.objects("patches")) {
-    if (patch.choice("kind", {"tensor", "triangle"}, "tensor") == "tensor") {
-      surface.patches.emplace_back(read_tensor(patch));
-    } else {
-      surface.patches.emplace_back(read_triangle(patch));
-    }
-    patch.finish();
+    surface.patches.push_back(read_net(patch, {"[w x, w y, w z, w]", max_degree}));
   }
   if (surface.patches.empty()) params.fail("patches", "there is no patch");
   return params.boolean("closed", false);

@@ -7,6 +7,7 @@ namespace rondure {
 class Registry;
 
 void register_bezier(Registry& registry);
+void register_projected_net(Registry& registry);
 void register_sphere(Registry& registry);
 void register_sphere_cap(Registry& registry);
 void register_sphere_octant(Registry& registry);

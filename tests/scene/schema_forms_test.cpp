@@ -172,6 +172,15 @@ TEST_CASE("schema and reader agree on every form and every limit", "[scene]") {
       {true, "/objects/0", R"({"type": "stereographic_patch", "x": [-4, 4], "y": [0, 1], "plane_z": 0})"},
       {false, "/objects/0", R"({"type": "stereographic_patch", "plane_z": 1})"},
       {false, "/objects/0", R"({"type": "stereographic_patch", "x": [1]})"},
+      {true, "/objects/0", R"({"type": "projected_net", "closed": false, "patches": [
+          {"kind": "triangle", "degree": 1, "net": {"100": [1,0,0,0], "010": [1,1,0,0], "001": [1,0,1,0]}},
+          {"degree": [1, 1], "net": [[[1,0,0,0],[1,0,1,0]],[[1,1,0,0],[1,1,1,0]]]}]})"},
+      {false, "/objects/0", R"({"type": "projected_net"})"},
+      {false, "/objects/0", R"({"type": "projected_net", "patches": []})"},
+      {false, "/objects/0", R"({"type": "projected_net", "patches": [
+          {"degree": [13, 1], "net": [[[1,0,0,0],[1,0,1,0]],[[1,1,0,0],[1,1,1,0]]]}]})"},
+      {false, "/objects/0", R"({"type": "projected_net", "patches": [
+          {"degree": [1, 1], "net": [[[1,0,0],[1,0,1]],[[1,1,0],[1,1,1]]]}]})"},
       {true, "/objects/0", R"({"type": "sphere_octant", "octants": [0, 7]})"},
       {false, "/objects/0", R"({"type": "sphere_octant", "octants": [0, 8]})"},
       {false, "/objects/0", R"({"type": "sphere_octant", "octants": [1, 1]})"},

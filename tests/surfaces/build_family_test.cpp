@@ -5,6 +5,7 @@
 #include "tests/catch.h"
 
 namespace rondure {
+
 TEST_CASE("every family describes itself", "[surfaces]") {
   Registry registry;
   register_builtins(registry);
@@ -19,7 +20,7 @@ TEST_CASE("every family describes itself", "[surfaces]") {
       CHECK_FALSE(parameter.meaning.empty());
     }
   }
-  CHECK(registry.family_names().size() == 7);
+  CHECK(registry.family_names().size() == 8);
 }
 
 TEST_CASE("the sphere is analytic, of radius 1, and closed", "[surfaces]") {
