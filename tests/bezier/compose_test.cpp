@@ -3,17 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/projective/stereographic.h"
+#include "tests/bezier/cube_face.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
-#include "tests/paths.h"
+#include "tests/reference_data.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -99,31 +98,16 @@ TEST_CASE("compositions are pointwise compositions", "[bezier]") {
 }
 
 TEST_CASE("the tabulated part of the cube's face is the composition", "[bezier]") {
-  std::ifstream derived(source_folder() + "/tests/data/cobb_derived.json");
-  std::ifstream nets(source_folder() + "/tests/data/cobb_nets.json");
-  const auto table = nlohmann::json::parse(derived);
-  TensorNet face(4, 4);
-  for (const auto& entry : nlohmann::json::parse(nets)) {
-    if (entry["name"] != "cube_face") continue;
-    for (int i = 0; i <= 4; ++i) {
-      for (int j = 0; j <= 4; ++j) {
-        for (int c = 0; c < 4; ++c) face.at(i, j)[c] = std::stod(std::string(entry["net"][i][j][c]));
-      }
-    }
-  }
-  const auto fraction = [](const std::string& text) {
-    const std::size_t slash = text.find('/');
-    return slash == std::string::npos ? std::stod(text) : std::stod(text) / std::stod(text.substr(slash + 1));
-  };
+  const auto table = reference_data("cobb_derived.json");
   PlanarMap<Tensor> g{Tensor(1, 1), Tensor(1, 1), Tensor(1, 1)};
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
-      g.x.at(i, j) = fraction(table["planar"][i][j][0]);
-      g.y.at(i, j) = fraction(table["planar"][i][j][1]);
-      g.w.at(i, j) = fraction(table["planar"][i][j][2]);
+      g.x.at(i, j) = number(table["planar"][i][j][0]);
+      g.y.at(i, j) = number(table["planar"][i][j][1]);
+      g.w.at(i, j) = number(table["planar"][i][j][2]);
     }
   }
-  const TensorNet composed = compose(face, g);
+  const TensorNet composed = compose(cube_face(), g);
   REQUIRE(composed.m == 8);
   REQUIRE(composed.n == 8);
   WorstCase worst;

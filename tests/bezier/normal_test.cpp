@@ -3,20 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/projective/planar_patch.h"
+#include "tests/bezier/cube_face.h"
 #include "tests/bezier/oracle.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
-#include "tests/paths.h"
+#include "tests/reference_data.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -273,19 +272,8 @@ TEST_CASE("the normal polynomial is w (X_u x X_v) and so on, of the true degree"
 }
 
 TEST_CASE("the normal polynomial of the cube's face agrees with the tabulated one", "[bezier][normal]") {
-  std::ifstream derived(source_folder() + "/tests/data/cobb_derived.json");
-  std::ifstream nets(source_folder() + "/tests/data/cobb_nets.json");
-  const auto expected = nlohmann::json::parse(derived)["cube_face_normal"];
-  TensorNet face(4, 4);
-  for (const auto& entry : nlohmann::json::parse(nets)) {
-    if (entry["name"] != "cube_face") continue;
-    for (int i = 0; i <= 4; ++i) {
-      for (int j = 0; j <= 4; ++j) {
-        for (int c = 0; c < 4; ++c) face.at(i, j)[c] = std::stod(std::string(entry["net"][i][j][c]));
-      }
-    }
-  }
-  const auto normals = std::get<TensorPolynomial<dvec3>>(normal_polynomial(face));
+  const auto expected = reference_data("cobb_derived.json")["cube_face_normal"];
+  const auto normals = std::get<TensorPolynomial<dvec3>>(normal_polynomial(cube_face()));
   REQUIRE(normals.m == 10);
   REQUIRE(normals.n == 10);
   WorstCase worst;

@@ -20,16 +20,6 @@ std::string triangle(const std::string& degree, const std::string& net) {
          "}]}";
 }
 
-// The first line of the message after "file:line:column: ".
-std::string complaint(const std::string& text) {
-  const std::string message = family_error(text);
-  const std::string mark = "object.json:1:";
-  const std::size_t at = message.find(mark);
-  if (at == std::string::npos) return message;
-  const std::size_t colon = message.find(": ", at + mark.size());
-  return message.substr(colon + 2, message.find('\n', colon) - colon - 2);
-}
-
 }  // namespace
 
 TEST_CASE("tensor and triangular nets are read in their order", "[surfaces]") {

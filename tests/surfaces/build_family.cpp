@@ -29,4 +29,13 @@ std::string family_error(const std::string& text) {
   return "no error";
 }
 
+std::string complaint(const std::string& text) {
+  const std::string message = family_error(text);
+  const std::string mark = "object.json:1:";
+  const std::size_t at = message.find(mark);
+  if (at == std::string::npos) return message;
+  const std::size_t colon = message.find(": ", at + mark.size());
+  return message.substr(colon + 2, message.find('\n', colon) - colon - 2);
+}
+
 }  // namespace rondure

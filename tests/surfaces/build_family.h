@@ -13,4 +13,7 @@ Surface build_family(const std::string& text);
 // The message of the error that building throws, or "no error".
 std::string family_error(const std::string& text);
 
+// The first line of that message, after "file:line:column: ".
+std::string complaint(const std::string& text);
+
 }  // namespace rondure

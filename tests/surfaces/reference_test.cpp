@@ -2,14 +2,12 @@
 #include <fmt/format.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "renderer/bezier/rational.h"
 #include "tests/catch.h"
-#include "tests/paths.h"
+#include "tests/reference_data.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -36,26 +34,9 @@ const Case cases[] = {
     {"octant", R"({"type": "sphere_octant"})", 1.0}};
 
 json reference(const std::string& name) {
-  static const json all = [] {
-    std::ifstream file(source_folder() + "/tests/data/cobb_nets.json");
-    return json::parse(file);
-  }();
-  for (const json& entry : all) {
-    if (entry["name"] == name) return entry;
-  }
-  return {};
+  static const json all = reference_data("cobb_nets.json");
+  return reference_entry(all, name);
 }
-
-// "3/8" or decimals.
-double number(const json& value) {
-  if (value.is_number()) return value.get<double>();
-  const std::string text = value.get<std::string>();
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return std::stod(text);
-  return std::stod(text.substr(0, slash)) / std::stod(text.substr(slash + 1));
-}
-
-dvec3 vector(const json& value) { return {number(value[0]), number(value[1]), number(value[2])}; }
 
 }  // namespace
 

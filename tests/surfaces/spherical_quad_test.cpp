@@ -19,16 +19,6 @@ std::string quad(const std::string& corners, const std::string& rest = "") {
   return R"({"type": "spherical_quad", "corners": )" + corners + (rest.empty() ? "" : ", " + rest) + "}";
 }
 
-// The first line of the message after "file:line:column: ".
-std::string complaint(const std::string& text) {
-  const std::string message = family_error(text);
-  const std::string mark = "object.json:1:";
-  const std::size_t at = message.find(mark);
-  if (at == std::string::npos) return message;
-  const std::size_t colon = message.find(": ", at + mark.size());
-  return message.substr(colon + 2, message.find('\n', colon) - colon - 2);
-}
-
 Net net_of(const std::string& text) { return build_family(text).patches.front(); }
 
 }  // namespace
