@@ -1,0 +1,41 @@
+// Patches of the unit sphere between circular arcs, from preimages under delta (Dietz, Hoschek, Juettler
+// 1993, section 3.5).
+#pragma once
+
+#include <array>
+
+#include "renderer/projective/preimage.h"
+#include "renderer/projective/spherical_quad.h"
+#include "renderer/projective/spinor.h"
+
+namespace rondure {
+
+// Three points of the unit sphere, counter-clockwise seen from outside, and the arcs from each to the next.
+struct SphericalTriangle {
+  std::array<SphereArc, 3> arc;
+};
+
+// What a spinor is multiplied by when it is carried once around the sides. Modulus 1; its argument, in
+// (-pi, pi], is half of what the interior angles exceed 2 pi by (quad) or pi (triangle). 1 exactly when these
+// arcs bound a patch of degree (2, 2) (theorem 3.9; -1: other arcs of the same circles do) or 2.
+Complex holonomy(const SphericalQuad& quad);
+Complex holonomy(const SphericalTriangle& triangle);
+
+// Corners 0 to 3 at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1); corners 0 to 2 of a triangle where u, v, w = 1.
+
+// Of degree (1, 1): the patch of theorem 3.9. What the holonomy lacks from 1, which should be little, is
+// spread over the sides. `shape` > 0 is the one essential parameter, |b00| |b11| / (|b10| |b01|): it moves
+// parameters only.
+TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape);
+
+// Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are quadratic.
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad);
+
+// The same of degree (2, 1), with quadratic sides at u = 0 and u = 1.
+TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad);
+
+// Of degree 1, for a holonomy of 1 or nearly, and of degree 2 for any arcs.
+TrianglePreimage linear_preimage(const SphericalTriangle& triangle);
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle);
+
+}  // namespace rondure

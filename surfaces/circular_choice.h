@@ -1,0 +1,17 @@
+// The choice among the patches that circular arcs bound.
+#pragma once
+
+#include <vector>
+
+#include "renderer/api/surface.h"
+#include "renderer/projective/circular_patch.h"
+
+namespace rondure {
+
+inline constexpr long double degrees_per_radian = 57.295779513082320876798154814105L;
+
+// The image of the first candidate that is regular and has positive weights only, or else of the first that
+// is regular. Fails where none is.
+Surface best_image(const Params& params, const std::vector<Preimage>& candidates);
+
+}  // namespace rondure

@@ -1,0 +1,64 @@
+// A triangle of circular arcs on the unit sphere as one patch of degree 2, where the circles have a common
+// point (Dietz, Hoschek, Juettler 1993, section 3.5), or of degree 4.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "renderer/api/registry.h"
+#include "surfaces/arc_reader.h"
+#include "surfaces/circular_choice.h"
+#include "surfaces/families.h"
+
+namespace rondure {
+namespace {
+
+// As for circular_quad.
+constexpr long double closes = 1e-10L;
+
+std::string why_not_quadratic(const SphericalTriangle& triangle) {
+  const long double degrees = std::arg(holonomy(triangle)) * 2 * degrees_per_radian;
+  if (std::abs(degrees) > 360 - 1e-6L)
+    return "these arcs have no quadratic patch, but others of the same circles have: take the other arc of "
+           "one circle";
+  return fmt::format(
+      "a quadratic patch exists only where the interior angles add up to 180 degrees and the three circles "
+      "have a point in common (Dietz, Hoschek, Juettler 1993, section 3.5); here they exceed that by {:.9g} "
+      "degrees. \"degree_4\" always exists",
+      static_cast<double>(degrees));
+}
+
+std::vector<Preimage> candidates(Params& params, const SphericalTriangle& triangle) {
+  const std::string construction = params.choice("construction", {"auto", "quadratic", "degree_4"}, "auto");
+  std::vector<Preimage> list;
+  if (construction != "degree_4") {
+    const bool exists = std::abs(std::arg(holonomy(triangle))) <= closes;
+    if (construction == "quadratic" && !exists) params.fail("construction", why_not_quadratic(triangle));
+    if (exists) list.emplace_back(linear_preimage(triangle));
+  }
+  if (construction != "quadratic") list.emplace_back(quadratic_preimage(triangle));
+  return list;
+}
+
+Surface build(Params& params) {
+  const std::vector<SphereArc> arcs = read_arcs(params, 3);
+  return best_image(params, candidates(params, {{arcs[0], arcs[1], arcs[2]}}));
+}
+
+}  // namespace
+
+void register_circular_triangle(Registry& registry) {
+  registry.add(SurfaceFamily{
+      "circular_triangle",
+      "a triangle of circular arcs on the unit sphere, of degree 2 where possible, or 4 (Dietz, Hoschek, "
+      "Juettler 1993, section 3.5)",
+      {{"corners", "array of three directions [x, y, z]", "",
+        "counter-clockwise, seen from outside; each is brought to length 1. u, v, w = 1 there"},
+       arcs_doc(3),
+       {"construction", "\"auto\", \"quadratic\" or \"degree_4\"", "\"auto\"",
+        "quadratic: exists where the interior angles add up to 180 degrees; degree_4: exists for all arcs; "
+        "auto: the first of them that is regular, if possible with positive weights"}},
+      build});
+}
+
+}  // namespace rondure

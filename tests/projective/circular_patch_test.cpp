@@ -1,0 +1,362 @@
+// Patches between circular arcs (Dietz, Hoschek, Juettler 1993, section 3.5).
+#include "renderer/projective/circular_patch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/bezier/triangle.h"
+#include "renderer/projective/frame.h"
+#include "renderer/projective/orientation.h"
+#include "tests/bezier/random_nets.h"
+#include "tests/catch.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+constexpr long double pi = 3.141592653589793238462643383279502884L;
+
+lvec3 direction(NetMaker& make) {
+  lvec3 d(0);
+  while (!(glm::length(d) > 0.1L && glm::length(d) < 1))
+    d = {make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1)};
+  return glm::normalize(d);
+}
+
+lvec3 image(const lvec4& p) { return lvec3(delta(p)) / delta(p).w; }
+
+// The arc that is the image of the segment from b to c.
+SphereArc arc_of(const lvec4& b, const lvec4& c) { return arc_through(image(b), image(b + c), image(c)); }
+
+SphericalQuad quad_of(const TensorPreimage& p) {
+  return {{arc_of(p.at(0, 0), p.at(1, 0)), arc_of(p.at(1, 0), p.at(1, 1)), arc_of(p.at(1, 1), p.at(0, 1)),
+           arc_of(p.at(0, 1), p.at(0, 0))}};
+}
+
+TensorPreimage random_bilinear(NetMaker& make) {
+  TensorPreimage p(1, 1);
+  for (lvec4& c : p.coefficients) c = make.point(-1.0, 1.0);
+  return p;
+}
+
+// A rather square bilinear net, whose image is regular more often than not.
+TensorPreimage square_bilinear(NetMaker& make) {
+  TensorPreimage p(1, 1);
+  for (int i = 0; i <= 1; ++i) {
+    for (int j = 0; j <= 1; ++j) {
+      const double across = make.uniform(-0.4, 0.4), along = make.uniform(-0.4, 0.4),
+                   off = make.uniform(-0.4, 0.4);
+      p.at(i, j) = {1, j + across, i + along, off};
+    }
+  }
+  return p;
+}
+
+bool angles_within(const SphericalQuad& quad, long double least) {
+  const auto angles = shape_of(quad, quad.corner(0) + quad.corner(2)).angle;
+  return std::all_of(angles.begin(), angles.end(),
+                     [&](long double a) { return a > least && a < 180 - least; });
+}
+
+// A convex quadrilateral of great circles about a random axis, corners 15 to 75 degrees away from it.
+SphericalQuad convex_geodesic(NetMaker& make) {
+  const Frame frame(direction(make));
+  while (true) {
+    std::array<lvec3, 4> corner;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const long double around = (static_cast<long double>(k) + make.uniform(0.1, 0.9)) * pi / 2;
+      const long double away = make.uniform(0.25, 1.3);
+      corner[k] = std::cos(away) * frame.centre +
+                  std::sin(away) * (std::cos(around) * frame.e1 + std::sin(around) * frame.e2);
+    }
+    const SphericalQuad quad = geodesic_quad(corner);
+    if (angles_within(quad, 10)) return quad;
+  }
+}
+
+// A quadrilateral of arcs that bulge out or in, angles 5 to 175 degrees.
+SphericalQuad bulging(NetMaker& make, double most) {
+  while (true) {
+    SphericalQuad quad = convex_geodesic(make);
+    for (SphereArc& arc : quad.arc) {
+      const lvec3 middle = glm::normalize(arc.p + arc.q);
+      const lvec3 across = glm::cross(arc.p, arc.q);
+      const auto by = static_cast<long double>(make.uniform(-most, most));
+      arc = arc_through(arc.p, glm::normalize(middle + by * across), arc.q);
+    }
+    if (angles_within(quad, 5)) return quad;
+  }
+}
+
+lvec3 in_plane(const SphereArc& a) { return glm::normalize(glm::cross(a.q - a.p, a.b - a.w * a.p)); }
+
+// How far the boundary of the net is from the arcs' circles, relative to its largest point, as a polynomial;
+// infinite when it runs along the other arc of the circle.
+template <class Edge>
+double off_circle(const SphereArc& arc, int degree, Edge edge) {
+  const lvec3 normal = in_plane(arc);
+  const long double height = glm::dot(normal, arc.p);
+  long double off = 0, largest = 0;
+  dvec4 middle(0.0);
+  for (int k = 0; k <= degree; ++k) {
+    const dvec4 p = edge(k);
+    off = std::max(off, std::abs(glm::dot(normal, lvec3(p)) - height * p.w));
+    largest = std::max(largest, static_cast<long double>(glm::length(p)));
+    middle += binomial(degree, k) * p;
+  }
+  // Inside the arc the tangents' meeting point is nearer than the chord's other side.
+  const lvec3 m = lvec3(middle) / static_cast<long double>(middle.w);
+  const lvec3 chord = glm::normalize(arc.q - arc.p), up = glm::cross(normal, chord);
+  const lvec3 arc_middle = (arc.p + arc.q + 2.0L * arc.b) / (2 + 2 * arc.w);
+  const bool same_side = glm::dot(up, m - arc.p) * glm::dot(up, arc_middle - arc.p) > 0;
+  return same_side ? static_cast<double>(off / largest) : INFINITY;
+}
+
+double off_circles(const TensorNet& net, const SphericalQuad& quad) {
+  const int m = net.m, n = net.n;
+  return std::max({off_circle(quad.arc[0], m, [&](int k) { return net.at(k, 0); }),
+                   off_circle(quad.arc[1], n, [&](int k) { return net.at(m, k); }),
+                   off_circle(quad.arc[2], m, [&](int k) { return net.at(m - k, n); }),
+                   off_circle(quad.arc[3], n, [&](int k) { return net.at(0, n - k); })});
+}
+
+double off_circles(const TriangleNet& net, const SphericalTriangle& triangle) {
+  const int n = net.n;
+  return std::max({off_circle(triangle.arc[0], n, [&](int k) { return net.at(n - k, k); }),
+                   off_circle(triangle.arc[1], n, [&](int k) { return net.at(0, n - k); }),
+                   off_circle(triangle.arc[2], n, [&](int k) { return net.at(k, 0); })});
+}
+
+double off_corners(const Net& net, const SphericalQuad& quad) {
+  const std::pair<double, double> at[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  double off = 0.0;
+  for (int k = 0; k < 4; ++k)
+    off = std::max(off, glm::distance(net_point(net, at[k].first, at[k].second), dvec3(quad.corner(k))));
+  return off;
+}
+
+// The area between the arcs, from J / w^2.
+double area(const TensorPreimage& p) {
+  const auto j = orientation(p);
+  const std::vector<double> c(j.coefficients.begin(), j.coefficients.end());
+  const Net net = sphere_image(p);
+  using Gauss = boost::math::quadrature::gauss<double, 30>;
+  return Gauss::integrate(
+      [&](double u) {
+        return Gauss::integrate(
+            [&](double v) {
+              const double w = net_first(net, u, v).value.w;
+              return tensor_value(c.data(), j.m, j.n, u, v) / (w * w);
+            },
+            0.0, 1.0);
+      },
+      0.0, 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("the holonomy is the excess of the interior angles", "[projective]") {
+  NetMaker make(41);
+  WorstCase worst;
+  for (int k = 0; k < 300; ++k) {
+    const SphericalQuad quad = bulging(make, 0.4);
+    long double sum = 0;
+    for (const long double a : shape_of(quad, quad.corner(0) + quad.corner(2)).angle) sum += a;
+    const long double excess = std::remainder((sum - 360) * pi / 360 - std::arg(holonomy(quad)), 2 * pi);
+    worst.add(static_cast<double>(std::abs(excess)), 1e-15, [&] { return fmt::format("quad {}", k); });
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
+TEST_CASE("bilinear nets bound quadrilaterals of holonomy 1 (theorem 3.9)", "[projective]") {
+  NetMaker make(42);
+  WorstCase worst;
+  int positive = 0, negative = 0, rounds = 60;
+  for (int k = 0; k < rounds; ++k) {
+    const TensorPreimage p = random_bilinear(make);
+    const SphericalQuad quad = quad_of(p);
+    const auto text = [&] { return fmt::format("net {}", k); };
+    worst.add(static_cast<double>(std::abs(holonomy(quad) - 1.0L)), 1e-13, text);
+    // Corners 0 and 2 lie on a circle with the second meeting points of the arcs at 1 and 3: those are the
+    // corner reflected in the plane of the centre and the line that joins the planes of both arcs.
+    const auto second = [&](std::size_t corner) {
+      const SphereArc& in = quad.arc[(corner + 3) % 4];
+      const SphereArc& out = quad.arc[corner];
+      const lvec3 line = glm::normalize(glm::cross(in_plane(in), in_plane(out)));
+      return out.p - 2 * glm::dot(out.p, line) * line;
+    };
+    const lvec3 p0 = quad.corner(0), p2 = quad.corner(2), q1 = second(1), q3 = second(3);
+    // Conditioned by how flat the planes meet.
+    const double volume = static_cast<double>(glm::dot(glm::cross(p2 - p0, q1 - p0), q3 - p0));
+    worst.add(std::abs(volume), 1e-12, text);
+    // With either arc of each circle: half of the 16 choices close, the others miss by the sign.
+    for (unsigned choice = 0; choice < 16; ++choice) {
+      SphericalQuad other = quad;
+      for (std::size_t a = 0; a < 4; ++a) {
+        SphereArc& arc = other.arc[a];
+        if ((choice >> a & 1U) != 0) arc = {arc.p, arc.q, -arc.b, -arc.w};
+      }
+      const Complex h = holonomy(other);
+      positive += std::abs(h - 1.0L) < 1e-12L;
+      negative += std::abs(h + 1.0L) < 1e-12L;
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(positive == 8 * rounds);
+  CHECK(negative == 8 * rounds);
+}
+
+TEST_CASE("biquadratic patches have the sides they should", "[projective]") {
+  NetMaker make(43);
+  WorstCase worst;
+  int regular = 0, sums = 0;
+  for (int k = 0; k < 400; ++k) {
+    const SphericalQuad quad = quad_of(k % 2 == 0 ? random_bilinear(make) : square_bilinear(make));
+    const TensorPreimage p = bilinear_preimage(quad, make.uniform(0.2, 5));
+    const Net net = sphere_image(p);
+    const auto text = [&] { return fmt::format("quad {}", k); };
+    worst.add(off_circles(std::get<TensorNet>(net), quad), 1e-13, text);
+    worst.add(off_corners(net, quad), 1e-13, text);
+    if (!regularity(p).regular) continue;
+    // Corollary 3.12.
+    ++regular;
+    long double sum = 0, largest = 0;
+    for (const long double a : shape_of(quad, quad.corner(0) + quad.corner(2)).angle) {
+      sum += a;
+      largest = std::max(largest, a);
+    }
+    if (largest > 180) continue;
+    worst.add(static_cast<double>(std::abs(sum - 360)), 1e-10, text);
+    ++sums;
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(sums > 20);
+  CHECK(sums == regular);
+}
+
+TEST_CASE("the shape moves parameters only", "[projective]") {
+  NetMaker make(44);
+  WorstCase worst;
+  for (int k = 0; k < 50; ++k) {
+    const SphericalQuad quad = quad_of(random_bilinear(make));
+    const long double shape = make.uniform(0.2, 5);
+    const TensorPreimage p = bilinear_preimage(quad, shape);
+    const long double ratio = glm::length(p.at(0, 0)) * glm::length(p.at(1, 1)) /
+                              (glm::length(p.at(1, 0)) * glm::length(p.at(0, 1)));
+    worst.add(static_cast<double>(std::abs(ratio / shape - 1)), 1e-17,
+              [&] { return fmt::format("quad {}", k); });
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
+TEST_CASE("every quadrilateral of arcs has patches of degree (2, 4) (theorem 3.10)", "[projective]") {
+  NetMaker make(45);
+  WorstCase worst, areas;
+  int folded = 0, in_both = 0;
+  for (int k = 0; k < 300; ++k) {
+    const bool geodesic = k % 2 == 0;
+    const SphericalQuad quad = geodesic ? convex_geodesic(make) : bulging(make, 0.3);
+    const TensorPreimage choices[] = {linear_quadratic_preimage(quad), quadratic_linear_preimage(quad)};
+    int good = 0;
+    for (const TensorPreimage& p : choices) {
+      const Net net = sphere_image(p);
+      const auto text = [&] { return fmt::format("quad {}, {} x {}", k, p.m, p.n); };
+      const auto& tensor = std::get<TensorNet>(net);
+      CHECK((tensor.m == 2 * p.m && tensor.n == 2 * p.n && p.m + p.n == 3));
+      worst.add(off_circles(tensor, quad), 1e-14, text);
+      worst.add(off_corners(net, quad), 1e-14, text);
+      CHECK(base_points(p, false, 1).empty());
+      const bool regular = regularity(p).regular;
+      good += regular;
+      folded += geodesic && !regular;
+      // Girard: the area between great circles is the excess of the angles, twice the holonomy's argument.
+      if (geodesic)
+        areas.add(std::abs(area(p) - 2 * static_cast<double>(std::arg(holonomy(quad)))), 1e-8, text);
+    }
+    in_both += good == 0;
+  }
+  INFO(worst.text());
+  INFO(areas.text());
+  CHECK(worst.failures() == 0);
+  CHECK(areas.failures() == 0);
+  CHECK(folded == 0);
+  CHECK(in_both <= 1);
+}
+
+TEST_CASE("triangles of arcs", "[projective]") {
+  NetMaker make(46);
+  WorstCase worst;
+  int folded = 0, closing = 0, regular_linear = 0;
+  for (int k = 0; k < 200; ++k) {
+    const auto text = [&] { return fmt::format("triangle {}", k); };
+    // Plane nets, whose circles have a point in common: holonomy 1 (section 3.5).
+    TrianglePreimage plane(1);
+    for (lvec4& c : plane.coefficients) c = make.point(-1.0, 1.0);
+    const lvec4 &a = plane.at(1, 0), &b = plane.at(0, 1), &c = plane.at(0, 0);
+    const SphericalTriangle with_common_point{{arc_of(a, b), arc_of(b, c), arc_of(c, a)}};
+    closing += std::abs(holonomy(with_common_point) - 1.0L) < 1e-13L;
+    const Net quadratic = sphere_image(linear_preimage(with_common_point));
+    worst.add(off_circles(std::get<TriangleNet>(quadratic), with_common_point), 1e-13, text);
+    regular_linear += regularity(linear_preimage(with_common_point)).regular;
+    // Great circles, counter-clockwise, and arcs that bulge.
+    std::array<lvec3, 3> corner{direction(make), direction(make), direction(make)};
+    if (glm::dot(corner[0], glm::cross(corner[1], corner[2])) < 0) std::swap(corner[0], corner[1]);
+    SphericalTriangle triangle;
+    for (std::size_t s = 0; s < 3; ++s) {
+      const lvec3 p = corner[s], q = corner[(s + 1) % 3];
+      // Great circles when k is even, otherwise a little outward.
+      const lvec3 middle =
+          glm::normalize(p + q) + static_cast<long double>(make.uniform(0, 0.3) * (k % 2)) * glm::cross(q, p);
+      triangle.arc[s] = arc_through(p, glm::normalize(middle), q);
+    }
+    const TrianglePreimage p = quadratic_preimage(triangle);
+    CHECK(base_points(p, false, 1).empty());
+    const Net quartic = sphere_image(p);
+    CHECK(std::get<TriangleNet>(quartic).n == 4);
+    worst.add(off_circles(std::get<TriangleNet>(quartic), triangle), 1e-13, text);
+    folded += k % 2 == 0 && !regularity(p).regular;
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(closing == 200);
+  CHECK(regular_linear > 20);
+  CHECK(folded == 0);
+}
+
+TEST_CASE("a biquadratic patch is two quadratic triangles (corollary 3.11)", "[projective]") {
+  NetMaker make(47);
+  WorstCase worst;
+  for (int k = 0; k < 100; ++k) {
+    // Cut along the diagonal of the bilinear net that joins (1, 0) and (0, 1).
+    const TensorPreimage p = random_bilinear(make);
+    const SphericalQuad quad = quad_of(p);
+    const SphereArc diagonal = arc_of(p.at(1, 0), p.at(0, 1)), back = arc_of(p.at(0, 1), p.at(1, 0));
+    const SphericalTriangle low{{quad.arc[0], diagonal, quad.arc[3]}};
+    const SphericalTriangle high{{quad.arc[1], quad.arc[2], back}};
+    const Complex product = holonomy(low) * holonomy(high);
+    const auto text = [&] { return fmt::format("net {}", k); };
+    worst.add(static_cast<double>(std::abs(product - holonomy(quad))), 1e-13, text);
+    for (const SphericalTriangle& t : {low, high}) {
+      worst.add(static_cast<double>(std::abs(holonomy(t) - 1.0L)), 1e-13, text);
+      const Net net = sphere_image(linear_preimage(t));
+      worst.add(off_circles(std::get<TriangleNet>(net), t), 1e-13, text);
+    }
+    // An arc of another circle as diagonal spoils both alike.
+    const lvec3 aside = glm::normalize(image(p.at(1, 0) + p.at(0, 1)) + 0.2L * direction(make));
+    const SphereArc bent = arc_through(diagonal.p, aside, diagonal.q);
+    const SphericalTriangle half{{quad.arc[0], bent, quad.arc[3]}};
+    const SphericalTriangle rest{{quad.arc[1], quad.arc[2], arc_through(bent.q, aside, bent.p)}};
+    worst.add(static_cast<double>(std::abs(holonomy(half) * holonomy(rest) - 1.0L)), 1e-13, text);
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
+}  // namespace rondure

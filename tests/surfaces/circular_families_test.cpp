@@ -1,0 +1,146 @@
+// Quadrilaterals and triangles of circular arcs as scenes ask for them.
+#include <fmt/format.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "renderer/bezier/rational.h"
+#include "tests/bezier/random_nets.h"
+#include "tests/catch.h"
+#include "tests/paths.h"
+#include "tests/surfaces/build_family.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+using Big = boost::multiprecision::cpp_bin_float_50;
+using nlohmann::json;
+
+const std::string cube = R"("corners": [[-1,-1,-1],[-1,1,-1],[1,1,-1],[1,-1,-1]])";
+const std::string octant = R"("corners": [[1,0,0],[0,1,0],[0,0,1]])";
+
+// Between the parallels and meridians of a globe: four right angles.
+const std::string latlong = R"("corners": [[0,-1,-0.5],[0.8,-0.6,-0.5],[0.8,-0.6,0.5],[0,-1,0.5]],
+    "arcs": [{"plane": [0,0,1,-0.44721359549995794]}, null, {"plane": [0,0,1,0.44721359549995794]}, null])";
+
+Surface quad(const std::string& rest) { return build_family(R"({"type": "circular_quad", )" + rest + "}"); }
+
+json reference(const std::string& name) {
+  std::ifstream file(source_folder() + "/tests/data/dhj_nets.json");
+  for (const json& entry : json::parse(file)) {
+    if (entry["name"] == name) return entry;
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("patches of degree (2, 4) have the reference's nets", "[surfaces]") {
+  WorstCase worst;
+  const std::pair<const char*, const char*> cases[] = {{"24_cube_face", "circular_cube_face"},
+                                                       {"24_icosa_rhombus", "circular_icosahedron_pair"},
+                                                       {"24_small_circles", "circular_small_circles"}};
+  for (const auto& [name, object] : cases) {
+    // Corners and arcs in doubles stand with the ray cases.
+    std::ifstream file(source_folder() + "/tests/data/rays/" + object + ".json");
+    const Surface surface = build_family(json::parse(file)["object"].dump());
+    const auto& net = std::get<TensorNet>(surface.patches.at(0));
+    REQUIRE((net.m == 2 && net.n == 4));
+    const json expected = reference(name)["net"];
+    for (int i = 0; i <= 2; ++i) {
+      for (int j = 0; j <= 4; ++j) {
+        for (int d = 0; d < 4; ++d) {
+          const Big exact(expected[i][j][d].get<std::string>());
+          // The corners are rounded to doubles, some 2^-53; control points follow with factors of a few.
+          worst.add(static_cast<double>(abs(exact - Big(net.at(i, j)[d]))), 8.0 * 0x1p-53,
+                    [&, n = name] { return fmt::format("{} ({}, {}) {}", n, i, j, d); });
+        }
+      }
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.count() == 3 * 60);
+  CHECK(worst.failures() == 0);
+}
+
+TEST_CASE("auto takes the lowest degree that is regular", "[surfaces]") {
+  const auto degree = [](const Surface& surface) {
+    const auto& net = std::get<TensorNet>(surface.patches.at(0));
+    return std::pair(net.m, net.n);
+  };
+  CHECK(degree(quad(latlong)) == std::pair(2, 2));
+  CHECK(degree(quad(latlong + R"(, "construction": "biquadratic", "shape": 3)")) == std::pair(2, 2));
+  CHECK(degree(quad(latlong + R"(, "construction": "degree_2_4")")) == std::pair(2, 4));
+  CHECK(degree(quad(cube)) == std::pair(2, 4));
+  CHECK(degree(quad(cube + R"(, "quartic": "u")")) == std::pair(4, 2));
+  const auto triangle = [](const std::string& rest) {
+    const Surface s = build_family(R"({"type": "circular_triangle", )" + rest + "}");
+    return std::get<TriangleNet>(s.patches.at(0)).n;
+  };
+  CHECK(triangle(octant) == 4);
+  // Circles through the north pole: straight in the plane, 180 degrees in all.
+  CHECK(triangle(R"("corners": [[0.8,0,-0.6],[-0.6666666666666666,-0.6666666666666666,-0.3333333333333333],
+      [-0.6666666666666666,0.6666666666666666,-0.3333333333333333]], "arcs": [
+      {"plane": [2, -4, 1, 1]}, {"plane": [1, 0, -0.5, -0.5]}, {"plane": [2, 4, 1, 1]}])") == 2);
+}
+
+TEST_CASE("weights are positive where they can be", "[surfaces]") {
+  int negative = 0;
+  for (const std::string& text :
+       {R"({"type": "circular_quad", )" + latlong + "}", R"({"type": "circular_quad", )" + cube + "}",
+        R"({"type": "circular_triangle", )" + octant + "}"}) {
+    for (const dvec4& p : points_of(build_family(text).patches.at(0))) negative += !(p.w > 0.0);
+  }
+  CHECK(negative == 0);
+}
+
+TEST_CASE("the octant is a triangle without a singular corner", "[surfaces]") {
+  const Surface surface = build_family(R"({"type": "circular_triangle", )" + octant + "}");
+  NetMaker make(51);
+  WorstCase worst;
+  for (int k = 0; k < 300; ++k) {
+    dvec2 at = make.in_triangle();
+    if (k % 4 == 0) at.x = 0.0;
+    if (k % 7 == 0) at = {double(k % 2), double((k + 1) % 2)};
+    const SurfaceJet jet = surface_jet(surface.patches[0], at.x, at.y);
+    const auto text = [&] { return fmt::format("({}, {})", at.x, at.y); };
+    worst.add(std::abs(glm::length(jet.point) - 1.0), 8 * 0x1p-52, text);
+    const dvec3 normal = glm::cross(jet.du, jet.dv);
+    worst.add(glm::length(normal / glm::length(normal) - jet.point), 1e-13, text);
+    CHECK(glm::length(normal) > 0.1);
+    CHECK(std::min({jet.point.x, jet.point.y, jet.point.z}) > -1e-15);
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
+TEST_CASE("arcs without the patch asked for say why", "[surfaces]") {
+  const auto refused = [](const std::string& text, const std::string& part) {
+    const std::string message = family_error(text);
+    INFO(text << "\n" << message);
+    CHECK(message.find(part) != std::string::npos);
+  };
+  const std::string q = R"({"type": "circular_quad", )", t = R"({"type": "circular_triangle", )";
+  // Angles of 120 degrees, and of 90.
+  refused(q + cube + R"(, "construction": "biquadratic"})", "exceed that by 120 degrees");
+  refused(t + octant + R"(, "construction": "quadratic"})", "exceed that by 90 degrees");
+  // The longer way round one of the circles closes with the other sign only.
+  refused(q + R"("corners": [[0,-1,-0.5],[0.8,-0.6,-0.5],[0.8,-0.6,0.5],[0,-1,0.5]], "arcs": [
+      {"through": [0,1,-0.5]}, null, {"plane": [0,0,1,0.44721359549995794]}, null],
+      "construction": "biquadratic"})",
+          "take the other arc of one circle");
+  refused(q + R"("corners": [[-1,-1,-1],[1,-1,-1],[1,1,-1],[-1,1,-1]]})", "these run clockwise");
+  refused(t + R"("corners": [[1,0,0],[0,0,1],[0,1,0]]})", "these run clockwise");
+  // Crosses itself.
+  refused(q + R"("corners": [[-1,-1,-1],[1,1,-1],[-1,1,-1],[1,-1,-1]]})", "folds, near (u, v)");
+  refused(q + R"("corners": [[-1,-1,-1],[-1,1,-1],[1,1,-1]]})", "an array of four directions");
+  refused(t + R"("corners": [[1,0,0],[0,1,0],[0,0,1],[1,1,1]]})", "an array of three directions");
+  refused(t + R"("corners": [[1,0,0],[0,1,0],[0,0,1]], "arcs": [null, null]})", "an array of three arcs");
+  refused(t + R"("corners": [[1,0,0],[-1,0,0],[0,0,1]]})", "corners[0] and corners[1] are opposite");
+  refused(t + R"("corners": [[1,0,0],[0,1,0],[1,0,0]]})", "corners[2] and corners[0] are the same");
+}
+
+}  // namespace rondure
