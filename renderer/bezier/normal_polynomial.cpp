@@ -5,44 +5,12 @@
 #include <limits>
 
 #include "renderer/bezier/normal.h"
+#include "renderer/bezier/wedge.h"
 
 namespace rondure {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-// The line through two homogeneous points, as the wedge product needs it.
-struct Line {
-  dvec3 moment{0.0}, direction{0.0};
-
-  Line() = default;
-  explicit Line(double) {}
-  Line(const dvec3& m, const dvec3& d) : moment(m), direction(d) {}
-  Line& operator+=(const Line& o) {
-    moment += o.moment;
-    direction += o.direction;
-    return *this;
-  }
-  Line& operator*=(double s) {
-    moment *= s;
-    direction *= s;
-    return *this;
-  }
-  Line& operator/=(double s) {
-    moment /= s;
-    direction /= s;
-    return *this;
-  }
-};
-
-Line join(const dvec4& g, const dvec4& h) {
-  return {glm::cross(dvec3(g), dvec3(h)), h.w * dvec3(g) - g.w * dvec3(h)};
-}
-
-// Normal part of the plane through a point and a line: F_w (G x H) + G_w (H x F) + H_w (F x G).
-dvec3 join_plane(const dvec4& f, const Line& gh) {
-  return f.w * gh.moment + glm::cross(dvec3(f), gh.direction);
-}
 
 double largest_norm(const std::vector<dvec4>& points) {
   double largest = 0.0;

@@ -1,7 +1,7 @@
 // Products of Bernstein polynomials, by convolution of the scaled coefficients C(m, i) C(n, j) a_ij.
 //
-// Polynomials here own their coefficients and may be of any degree up to max_binomial_degree. The product of
-// coefficients is `op(a, b)`, by default a * b: any bilinear map gives the polynomial of its values.
+// Polynomials here own their coefficients and may be of any degree. The product of coefficients is `op(a,
+// b)`, by default a * b: any bilinear map gives the polynomial of its values.
 #pragma once
 
 #include <cstddef>
@@ -49,34 +49,47 @@ constexpr double trinomial(int n, int i, int j) { return binomial(n, i) * binomi
 
 namespace detail {
 
-template <class T>
-TensorPolynomial<T> scaled(TensorPolynomial<T> p) {
-  for (int i = 0; i <= p.m; ++i) {
-    for (int j = 0; j <= p.n; ++j) p.at(i, j) *= binomial(p.m, i) * binomial(p.n, j);
+// C(n, 0..n), of any degree: one rounding each where the table ends.
+inline std::vector<double> binomial_row(int n) {
+  std::vector<double> row(static_cast<std::size_t>(n) + 1);
+  long double c = 1.0L;
+  for (int k = 0; k <= n; ++k) {
+    row[static_cast<std::size_t>(k)] = n <= max_binomial_degree ? binomial(n, k) : static_cast<double>(c);
+    c = c * static_cast<long double>(n - k) / static_cast<long double>(k + 1);
   }
+  return row;
+}
+
+// factor(coefficient, binomial) for every coefficient.
+template <class T, class Factor>
+void for_binomials(TensorPolynomial<T>& p, Factor factor) {
+  const std::vector<double> in_u = binomial_row(p.m), in_v = binomial_row(p.n);
+  std::size_t at = 0;
+  for (const double a : in_u) {
+    for (const double b : in_v) factor(p.coefficients[at++], a * b);
+  }
+}
+
+template <class T, class Factor>
+void for_binomials(TrianglePolynomial<T>& p, Factor factor) {
+  const std::vector<double> in_u = binomial_row(p.n);
+  std::size_t at = 0;
+  for (int i = 0; i <= p.n; ++i) {
+    for (const double b : binomial_row(p.n - i)) {
+      factor(p.coefficients[at++], in_u[static_cast<std::size_t>(i)] * b);
+    }
+  }
+}
+
+template <class Polynomial>
+Polynomial scaled(Polynomial p) {
+  for_binomials(p, [](auto& c, double b) { c *= b; });
   return p;
 }
 
-template <class T>
-TrianglePolynomial<T> scaled(TrianglePolynomial<T> p) {
-  for (int i = 0; i <= p.n; ++i) {
-    for (int j = 0; j <= p.n - i; ++j) p.at(i, j) *= trinomial(p.n, i, j);
-  }
-  return p;
-}
-
-template <class T>
-void unscale(TensorPolynomial<T>& p) {
-  for (int i = 0; i <= p.m; ++i) {
-    for (int j = 0; j <= p.n; ++j) p.at(i, j) /= binomial(p.m, i) * binomial(p.n, j);
-  }
-}
-
-template <class T>
-void unscale(TrianglePolynomial<T>& p) {
-  for (int i = 0; i <= p.n; ++i) {
-    for (int j = 0; j <= p.n - i; ++j) p.at(i, j) /= trinomial(p.n, i, j);
-  }
+template <class Polynomial>
+void unscale(Polynomial& p) {
+  for_binomials(p, [](auto& c, double b) { c /= b; });
 }
 
 }  // namespace detail
@@ -84,8 +97,8 @@ void unscale(TrianglePolynomial<T>& p) {
 template <class A, class B, class Op = std::multiplies<>>
 auto multiply(const TensorPolynomial<A>& a, const TensorPolynomial<B>& b, Op op = {}) {
   using C = decltype(op(a.coefficients[0], b.coefficients[0]));
-  const TensorPolynomial<A> sa = detail::scaled(a);
-  const TensorPolynomial<B> sb = detail::scaled(b);
+  const auto sa = detail::scaled(a);
+  const auto sb = detail::scaled(b);
   TensorPolynomial<C> product(a.m + b.m, a.n + b.n);
   for (int i = 0; i <= a.m; ++i) {
     for (int j = 0; j <= a.n; ++j) {
@@ -101,8 +114,8 @@ auto multiply(const TensorPolynomial<A>& a, const TensorPolynomial<B>& b, Op op 
 template <class A, class B, class Op = std::multiplies<>>
 auto multiply(const TrianglePolynomial<A>& a, const TrianglePolynomial<B>& b, Op op = {}) {
   using C = decltype(op(a.coefficients[0], b.coefficients[0]));
-  const TrianglePolynomial<A> sa = detail::scaled(a);
-  const TrianglePolynomial<B> sb = detail::scaled(b);
+  const auto sa = detail::scaled(a);
+  const auto sb = detail::scaled(b);
   TrianglePolynomial<C> product(a.n + b.n);
   for (int i = 0; i <= a.n; ++i) {
     for (int j = 0; j <= a.n - i; ++j) {
