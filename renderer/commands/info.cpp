@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/bezier/bounds.h"
+#include "renderer/bezier/mass_properties.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/scene_options.h"
@@ -26,6 +27,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
   SceneOptions scene;
   bool json = false;
+  bool no_mass = false;
 };
 
 std::string kind_of(const Net& net) {
@@ -36,7 +38,40 @@ std::string kind_of(const Net& net) {
 
 Json vector_of(const dvec3& p) { return {p.x, p.y, p.z}; }
 
-Json describe_object(const SceneObject& object) {
+// A number that may be unknown: then null.
+Json number_or_null(double value, double error) { return std::isfinite(error) ? Json(value) : Json(nullptr); }
+
+Json body_of(const Body& body, const char* what, const dvec3& origin) {
+  Json out = {{"of", what}, {"centroid", nullptr}, {"inertia", nullptr}};
+  if (std::isfinite(body.centroid_error)) out["centroid"] = vector_of(body.centroid + origin);
+  out["centroid_error"] = number_or_null(body.centroid_error, body.centroid_error);
+  if (std::isfinite(body.inertia_error)) {
+    out["inertia"] = Json::array();
+    for (int k = 0; k < 3; ++k) out["inertia"].push_back(vector_of(body.inertia[k]));
+  }
+  out["inertia_error"] = number_or_null(body.inertia_error, body.inertia_error);
+  return out;
+}
+
+void add_mass(Json& out, const Surface& surface) {
+  const MassProperties mass = mass_properties(surface);
+  const auto add = [&](const char* name, const Body& body) {
+    out[name] = number_or_null(body.measure, body.measure_error);
+    out[std::string(name) + "_error"] = number_or_null(body.measure_error, body.measure_error);
+  };
+  add("area", mass.shell);
+  if (mass.solid) {
+    add("volume", *mass.solid);
+  } else {
+    out["volume"] = nullptr;
+    out["why_no_volume"] = mass.leaks ? "the normals of its patches do not add up to zero: it is not closed"
+                                      : "volume needs a closed surface";
+  }
+  out["body"] = mass.solid ? body_of(*mass.solid, "solid", surface.origin)
+                           : body_of(mass.shell, "shell", surface.origin);
+}
+
+Json describe_object(const SceneObject& object, bool with_mass) {
   const Surface& surface = object.traced.surface;
   std::map<std::string, int> kinds;
   Box box;
@@ -61,6 +96,47 @@ Json describe_object(const SceneObject& object) {
   if (!box.empty())
     out["bounds"] = {{"low", vector_of(box.low + surface.origin)},
                      {"high", vector_of(box.high + surface.origin)}};
+  if (with_mass) add_mass(out, surface);
+  return out;
+}
+
+std::string measured(const Json& value, const Json& error) {
+  if (value.is_null()) return "not known";
+  return fmt::format("{:.16g} +- {:.1e}", value.get<double>(), error.get<double>());
+}
+
+// Coordinates below the error are shown as 0.
+std::string vector_text(const Json& v, const Json& error) {
+  const auto shown = [&](std::size_t k) {
+    const double x = v[k].get<double>();
+    return std::abs(x) <= error.get<double>() ? 0.0 : x;
+  };
+  return fmt::format("({:.12g}, {:.12g}, {:.12g})", shown(0), shown(1), shown(2));
+}
+
+std::string mass_text(const Json& object) {
+  std::string out = fmt::format("    area {}, ", measured(object["area"], object["area_error"]));
+  if (object.contains("why_no_volume")) {
+    out += fmt::format("no volume: {}\n", object["why_no_volume"].get<std::string>());
+  } else {
+    out += fmt::format("volume {}{}\n", measured(object["volume"], object["volume_error"]),
+                       object["volume"].is_number() && object["volume"].get<double>() < 0.0
+                           ? " (normals point inward)"
+                           : "");
+  }
+  const Json& body = object["body"];
+  const std::string of = body["of"].get<std::string>();
+  if (!body["centroid"].is_null()) {
+    out += fmt::format("    {}: centroid {} +- {:.1e}\n", of,
+                       vector_text(body["centroid"], body["centroid_error"]),
+                       body["centroid_error"].get<double>());
+  }
+  if (!body["inertia"].is_null()) {
+    const Json &rows = body["inertia"], &error = body["inertia_error"];
+    out += fmt::format("    {}: inertia about its centroid, density 1: {} {} {} +- {:.1e}\n", of,
+                       vector_text(rows[0], error), vector_text(rows[1], error), vector_text(rows[2], error),
+                       error.get<double>());
+  }
   return out;
 }
 
@@ -82,6 +158,7 @@ std::string as_text(const Json& info) {
                          a[0].get<double>(), a[1].get<double>(), a[2].get<double>(), b[0].get<double>(),
                          b[1].get<double>(), b[2].get<double>());
     }
+    if (object.contains("area")) out += mass_text(object);
   }
   const Json& total = info["total"];
   out += fmt::format("  {} objects, {} patches, {} leaves, {:.1f} kB\n", total["objects"].get<std::size_t>(),
@@ -96,7 +173,9 @@ void print_info(const Registry& registry, const InfoOptions& options) {
   Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
   Json info = {{"scene", scene.path}, {"hash", fmt::format("{:016x}", scene.hash)}};
   info["objects"] = Json::array();
-  for (const SceneObject& object : scene.objects) info["objects"].push_back(describe_object(object));
+  for (const SceneObject& object : scene.objects) {
+    info["objects"].push_back(describe_object(object, !options.no_mass));
+  }
   info["materials"] = scene.materials.size();
   info["lights"] = scene.lights.size();
   info["integrator"] = scene.integrator_name;
@@ -117,10 +196,11 @@ void print_info(const Registry& registry, const InfoOptions& options) {
 }  // namespace
 
 void add_info(CLI::App& program, CommandContext& context) {
-  CLI::App* command =
-      program.add_subcommand("info", "Tell what a scene holds: patches, degrees, weights, bounds, memory");
+  CLI::App* command = program.add_subcommand(
+      "info", "Tell what a scene holds: patches, degrees, weights, bounds, area, volume, inertia, memory");
   auto options = std::make_shared<InfoOptions>();
   add_scene_options(*command, options->scene);
+  command->add_flag("--no-mass", options->no_mass, "Leave out area, volume, centroid and inertia");
   command->add_flag("--json", options->json, "Print JSON");
   run_when_chosen(*command, context, [&context, options] { print_info(context.registry, *options); });
 }

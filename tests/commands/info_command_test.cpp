@@ -1,0 +1,74 @@
+// rondure info as a user meets it: what a scene holds, and how much.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/catch.h"
+#include "tests/commands/command_files.h"
+
+namespace rondure {
+namespace {
+
+using json = nlohmann::json;
+constexpr double pi = std::numbers::pi;
+
+ProcessResult info(const std::string& folder, std::vector<std::string> arguments = {}) {
+  arguments.insert(arguments.begin(), {"info", "scene.json"});
+  ProcessOptions options;
+  options.folder = folder;
+  return run_rondure(arguments, options);
+}
+
+}  // namespace
+
+TEST_CASE("info tells area, volume, centroid and inertia with their errors", "[command][mass]") {
+  const std::string folder = folder_with("info", R"({ "objects": [
+    { "type": "sphere_tiling", "topology": "cube", "radius": 2, "center": [1, 2, 3] },
+    { "type": "sphere", "radius": 2 },
+    { "type": "sphere_cap", "z_max": 0 },
+    { "type": "bezier", "closed": true, "patches": [
+      { "kind": "tensor", "degree": [1, 1], "net": [[[0,0,0,1],[0,1,0,1]],[[1,0,0,1],[1,1,0,1]]] } ] } ] })");
+  const ProcessResult result = info(folder, {"--json"});
+  CHECK(result.err.empty());
+  REQUIRE(result.exit_code == 0);
+  const json objects = json::parse(result.out)["objects"];
+  for (int k = 0; k < 2; ++k) {
+    const json& ball = objects[static_cast<std::size_t>(k)];
+    INFO(ball.dump());
+    CHECK(std::abs(ball["area"].get<double>() - 16 * pi) <= ball["area_error"].get<double>());
+    CHECK(std::abs(ball["volume"].get<double>() - 32 * pi / 3) <= ball["volume_error"].get<double>());
+    CHECK(ball["area_error"].get<double>() < 1e-12 * 16 * pi);
+    CHECK(ball["volume_error"].get<double>() < 1e-12 * 32 * pi / 3);
+    CHECK(ball["body"]["of"] == "solid");
+    for (std::size_t c = 0; c < 3; ++c) {
+      // The centroid is in world coordinates.
+      CHECK(std::abs(ball["body"]["centroid"][c].get<double>() -
+                     (k == 0 ? 1.0 + static_cast<double>(c) : 0.0)) < 1e-14);
+      CHECK(std::abs(ball["body"]["inertia"][c][c].get<double>() - 0.4 * 32 * pi / 3 * 4) < 1e-12);
+    }
+  }
+  CHECK(objects[2]["volume"].is_null());
+  CHECK(objects[2]["why_no_volume"] == "volume needs a closed surface");
+  CHECK(std::abs(objects[2]["area"].get<double>() - 2 * pi) <= objects[2]["area_error"].get<double>());
+  CHECK(objects[2]["body"]["of"] == "shell");
+  CHECK(std::abs(objects[2]["body"]["centroid"][2].get<double>() + 0.5) < 1e-12);
+  CHECK(objects[3]["volume"].is_null());
+  CHECK(objects[3]["area"] == 1.0);
+  CHECK(objects[3]["why_no_volume"] == "the normals of its patches do not add up to zero: it is not closed");
+}
+
+TEST_CASE("info without --json is text, and the mass may be left out", "[command][mass]") {
+  const std::string folder = folder_with("info_text");
+  const std::string text = info(folder).out;
+  CHECK(text.find("    area 12.56637061435917 +- ") != std::string::npos);
+  CHECK(text.find(", volume 4.18879020478639") != std::string::npos);
+  CHECK(text.find("    solid: centroid (0, 0, 0) +- ") != std::string::npos);
+  CHECK(text.find("    solid: inertia about its centroid, density 1: (1.67551608191, 0, 0) "
+                  "(0, 1.67551608191, 0) (0, 0, 1.67551608191) +- ") != std::string::npos);
+  const std::string less = info(folder, {"--no-mass"}).out;
+  CHECK(less.find("6 patches") != std::string::npos);
+  CHECK(less.find("area") == std::string::npos);
+  CHECK(info(folder, {"--no-mass", "--json"}).out.find("inertia") == std::string::npos);
+}
+
+}  // namespace rondure
