@@ -1,5 +1,6 @@
 // The unit sphere in biquartic patches: two hemispheres (Cobb 1988, Table 2), six faces of a cube (Table 4),
-// or the quadrilaterals of other polyhedra (section 7). Neighbours share the control points of their common
+// or the quadrilaterals of other polyhedra (section 7); and in patches of degree (2, 4), again faces of a
+// cube (Dietz, Hoschek, Juettler 1993, theorem 3.10). Neighbours share the control points of their common
 // edge bit for bit, in reverse order, wherever they share its weights.
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "renderer/api/registry.h"
 #include "renderer/projective/planar_patch.h"
 #include "renderer/projective/shared_points.h"
+#include "surfaces/cube_face_2_4.h"
 #include "surfaces/families.h"
 #include "surfaces/planar_weights.h"
 #include "surfaces/polyhedral_tiles.h"
@@ -36,8 +38,7 @@ TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
   return out;
 }
 
-std::vector<Net> cube(double middle) {
-  const TensorNet south = sphere_patch(cube_square(middle), 1);
+std::vector<Net> cube_of(const TensorNet& south) {
   std::vector<Net> patches;
   for (const AxisRotation& turn : face_rotations) patches.push_back(rotated(south, turn));
   return patches;
@@ -86,9 +87,19 @@ Surface build(Params& params) {
       impossible ? given->string
                  : params.choice(
                        "topology",
-                       {"hemispheres", "cube", "icosahedron_pairs", "octahedron_pairs", "tetrahedron_quads",
-                        "octahedron_quads", "icosahedron_quads", "rhombicuboctahedron"},
+                       {"hemispheres", "cube", "cube_2_4", "icosahedron_pairs", "octahedron_pairs",
+                        "tetrahedron_quads", "octahedron_quads", "icosahedron_quads", "rhombicuboctahedron"},
                        "cube");
+  if (topology == "cube_2_4") {
+    for (const char* without_meaning : {"middle_weight", "corner_weights", "reading"}) {
+      if (params.has(without_meaning))
+        params.fail(without_meaning, fmt::format("\"{}\" has no meaning for \"cube_2_4\"", without_meaning));
+    }
+    Surface surface;
+    surface.closed = true;
+    surface.patches = cube_of(cube_face_2_4());
+    return surface;
+  }
   const double middle = read_middle_weight(params);
   const CornerWeights corners = read_corner_weights(params);
   // Known everywhere, read only where it has a meaning.
@@ -100,7 +111,7 @@ Surface build(Params& params) {
   Surface surface;
   surface.closed = true;
   if (topology == "cube") {
-    surface.patches = cube(middle);
+    surface.patches = cube_of(sphere_patch(cube_square(middle), 1));
   } else if (topology == "hemispheres") {
     surface.patches = hemispheres(middle);
   } else {
@@ -118,12 +129,16 @@ Surface build(Params& params) {
 void register_sphere_tiling(Registry& registry) {
   registry.add(SurfaceFamily{
       "sphere_tiling",
-      "the whole unit sphere in biquartic patches (Cobb 1988, sections 5 to 7)",
+      "the whole unit sphere in patches of degree (4, 4) (Cobb 1988, sections 5 to 7) or (2, 4) (Dietz, "
+      "Hoschek, Juettler 1993, theorem 3.10)",
       {{"topology",
-        "\"hemispheres\", \"cube\", \"icosahedron_pairs\", \"octahedron_pairs\", \"tetrahedron_quads\", "
+        "\"hemispheres\", \"cube\", \"cube_2_4\", \"icosahedron_pairs\", \"octahedron_pairs\", "
+        "\"tetrahedron_quads\", "
         "\"octahedron_quads\", \"icosahedron_quads\" or \"rhombicuboctahedron\"",
         "\"cube\"",
-        "2 hemispheres, singular at four points of the equator; 6 faces of a cube; triangles of a polyhedron "
+        "2 hemispheres, singular at four points of the equator; 6 faces of a cube; the same of degree (2, "
+        "4), the least "
+        "there is, without parameters; triangles of a polyhedron "
         "joined in pairs (10, or 4 with two singular corners each) or divided in three (12, 24, 60); the "
         "rhombicuboctahedron with divided triangles. All but hemispheres and octahedron_pairs are regular; "
         "\"tetrahedron_pairs\", with corners of 240 degrees, is refused"},

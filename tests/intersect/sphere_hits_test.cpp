@@ -288,7 +288,8 @@ TEST_CASE("Clipping alone finds the same", "[hits]") {
 }
 
 TEST_CASE("Every other tiling is met as these are", "[hits]") {
-  const char* const parameters[] = {R"("topology": "icosahedron_pairs")",
+  const char* const parameters[] = {R"("topology": "cube_2_4")",
+                                    R"("topology": "icosahedron_pairs")",
                                     R"("topology": "icosahedron_pairs", "corner_weights": "unit")",
                                     R"("topology": "octahedron_pairs")",
                                     R"("topology": "tetrahedron_quads")",

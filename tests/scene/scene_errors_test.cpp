@@ -120,8 +120,9 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",
        "s.json:1:47: \"z_max\" must be a number in (-1, 1), found 1"},
       {"{\"type\": \"sphere_tiling\", \"topology\": \"cubes\"}",
-       "s.json:1:53: \"topology\" must be one of \"hemispheres\", \"cube\", \"icosahedron_pairs\", "
-       "\"octahedron_pairs\", \"tetrahedron_quads\", \"octahedron_quads\", \"icosahedron_quads\", "
+       "s.json:1:53: \"topology\" must be one of \"hemispheres\", \"cube\", \"cube_2_4\", "
+       "\"icosahedron_pairs\", \"octahedron_pairs\", \"tetrahedron_quads\", \"octahedron_quads\", "
+       "\"icosahedron_quads\", "
        "\"rhombicuboctahedron\", found \"cubes\"; did you mean \"cube\"?"},
       {"{\"type\": \"sphere\", \"transform\": 1}", "s.json:1:47: " + matrix},
       {"{\"type\": \"sphere\", \"transform\": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}", "s.json:1:47: " + matrix},

@@ -32,6 +32,7 @@ const char* const closed_families[] = {
 
 // Whose neighbours share edges, but not all their weights.
 const char* const other_closed_families[] = {
+    R"({"type": "sphere_tiling", "topology": "cube_2_4"})",
     R"({"type": "sphere_tiling", "topology": "icosahedron_pairs"})",
     R"({"type": "sphere_tiling", "topology": "icosahedron_pairs", "corner_weights": "unit"})",
     R"({"type": "sphere_tiling", "topology": "icosahedron_pairs", "middle_weight": 0.5})",

@@ -31,6 +31,8 @@ struct Case {
 const Case cases[] = {
     {R"("topology": "hemispheres")", 2, 4, 4, 4, 0, 0, 8},
     {R"("topology": "cube")", 6, 12, 12, 12, 0, 0, 0},
+    // Four edges are quadratic on one side and quartic on the other.
+    {R"("topology": "cube_2_4")", 6, 12, 12, 8, 0, 0, 0},
     {R"("topology": "icosahedron_pairs")", 10, 20, 20, 10, 0, 0, 0},
     {R"("topology": "icosahedron_pairs", "corner_weights": "unit")", 10, 20, 10, 10, 0, 0, 0},
     {R"("topology": "octahedron_pairs")", 4, 8, 8, 8, 0, 0, 8},
