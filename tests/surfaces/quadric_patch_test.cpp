@@ -1,0 +1,232 @@
+// Patches of quadrics as scenes ask for them: on the quadric, within their sides, and met by rays where the
+// quadric's equation says.
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/tracer.h"
+#include "renderer/projective/quadric.h"
+#include "tests/bezier/random_nets.h"
+#include "tests/catch.h"
+#include "tests/surfaces/build_family.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+struct Case {
+  const char* parameters;
+  Quadric quadric;
+  std::size_t patches;
+  bool closed = false;
+};
+
+Quadric plain(QuadricKind kind, const lvec3& axes) { return {kind, axes, lmat4(1)}; }
+
+// z = x y.
+const Quadric saddle{QuadricKind::hyperbolic_paraboloid,
+                     {std::sqrt(2.0L), std::sqrt(2.0L), 1},
+                     {{std::sqrt(0.5L), std::sqrt(0.5L), 0, 0},
+                      {-std::sqrt(0.5L), std::sqrt(0.5L), 0, 0},
+                      {0, 0, 1, 0},
+                      {0, 0, 0, 1}}};
+
+const Case cases[] = {
+    {R"("semi_axes": [2, 1, 0.5], "surface": {"type": "sphere_tiling", "topology": "cube_2_4"})",
+     plain(QuadricKind::ellipsoid, {2, 1, 0.5L}), 6, true},
+    {R"("matrix": [[1,0,0,-1],[0,4,0,0],[0,0,9,0],[-1,0,0,-3]], "surface": {"type": "sphere_octant"})",
+     {QuadricKind::ellipsoid, {2, 1, 2 / 3.0L}, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 1}}},
+     8,
+     true},
+    {R"("quadric": "two_sheets", "semi_axes": [1, 2, 0.5], "surface": {"type": "sphere_cap", "z_max": -0.4})",
+     plain(QuadricKind::two_sheets, {1, 2, 0.5L}), 1},
+    {R"("quadric": "two_sheets", "surface": {"type": "circular_quad",
+         "corners": [[-1,-1,-2],[-1,1,-2],[1,1,-2],[1,-1,-2]]})",
+     plain(QuadricKind::two_sheets, {1, 1, 1}), 1},
+    {R"("quadric": "elliptic_paraboloid", "semi_axes": [1, 2, 3], "surface": {"type": "sphere_cap", "z_max": 0.2})",
+     plain(QuadricKind::elliptic_paraboloid, {1, 2, 3}), 1},
+    {R"("quadric": "elliptic_paraboloid", "surface": {"type": "circular_triangle",
+         "corners": [[1,0,-1],[-1,-1,-1],[-1,1,-1]]})",
+     plain(QuadricKind::elliptic_paraboloid, {1, 1, 1}), 1},
+    {R"("quadric": "one_sheet", "semi_axes": [1, 2, 0.5], "rulings": [[-30, 40], [-20, 35]])",
+     plain(QuadricKind::one_sheet, {1, 2, 0.5L}), 1},
+    // Between two parallels.
+    {R"("quadric": "one_sheet", "preimage": [{"degree": [1, 1], "net": [
+         [[1,0,0.5,0.8660254],[1,0,-0.5,0.8660254]],
+         [[0.70710678,0.70710678,0.96592583,0.25881905],[0.70710678,0.70710678,0.25881905,0.96592583]]]}])",
+     plain(QuadricKind::one_sheet, {1, 1, 1}), 1},
+    {R"("quadric": "hyperbolic_paraboloid", "semi_axes": [1, 2, 3], "rulings": [[-1, 2], [-2, 1]])",
+     plain(QuadricKind::hyperbolic_paraboloid, {1, 2, 3}), 1},
+    {R"("matrix": [[0,1,0,0],[1,0,0,0],[0,0,0,-1],[0,0,-1,0]], "rulings": [[-1, 1], [-1, 1]])", saddle, 1}};
+
+std::string object(const char* parameters) {
+  return fmt::format(R"({{"type": "quadric_patch", {}}})", parameters);
+}
+
+struct Meeting {
+  int count = 0;
+  double t[2] = {0, 0};
+};
+
+// Where the line meets x^T B x = 0, from the quadratic equation in extended precision.
+Meeting meet(const lmat4& matrix, const Ray& ray) {
+  const lvec4 o(lvec3(ray.origin), 1), d(lvec3(ray.direction), 0);
+  const long double a = glm::dot(d, matrix * d), b = glm::dot(o, matrix * d), c = glm::dot(o, matrix * o);
+  Meeting found;
+  const long double root2 = b * b - a * c;
+  if (root2 < 0) return found;
+  const long double q = -(b + (b < 0 ? -1 : 1) * std::sqrt(root2));
+  for (const long double t : {a != 0 ? q / a : INFINITY, c / q}) {
+    if (std::isfinite(t)) found.t[found.count++] = static_cast<double>(t);
+  }
+  return found;
+}
+
+double distance_from(const lmat4& matrix, const dvec3& p) {
+  const lvec4 x(lvec3(p), 1);
+  const lvec4 gradient = matrix * x;
+  return static_cast<double>(std::abs(glm::dot(x, gradient)) / (2 * glm::length(lvec3(gradient))));
+}
+
+}  // namespace
+
+TEST_CASE("quadric patches lie on their quadric", "[surfaces]") {
+  NetMaker make(61);
+  WorstCase worst;
+  for (const Case& c : cases) {
+    INFO(c.parameters);
+    const Surface surface = build_family(object(c.parameters));
+    REQUIRE(surface.patches.size() == c.patches);
+    CHECK(surface.closed == c.closed);
+    const lmat4 matrix = matrix_of(c.quadric);
+    for (int k = 0; k < 200; ++k) {
+      const Net& net = surface.patches[static_cast<std::size_t>(k) % surface.patches.size()];
+      const bool triangle = std::holds_alternative<TriangleNet>(net);
+      const dvec2 at = triangle ? make.in_triangle() : dvec2(make.uniform(0, 1));
+      const dvec3 p = net_point(net, at.x, at.y);
+      // Ulps of the control points, which lie up to a few times as far out as the points.
+      worst.add(distance_from(matrix, p), 32 * 0x1p-52 * (1 + glm::length(p)),
+                [&] { return std::string(c.parameters); });
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
+// A random line aimed at a point of the patch must meet the patch there, where the equation has a root; and
+// every hit is a root.
+TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
+  NetMaker make(62);
+  WorstCase worst;
+  int lost = 0, invented = 0, hits = 0, rays = 0;
+  for (const Case& c : cases) {
+    const Surface surface = build_family(object(c.parameters));
+    const lmat4 matrix = matrix_of(c.quadric);
+    for (const Solver solver : {Solver::newton, Solver::clipping}) {
+      const Tracer tracer({{surface, solver}});
+      for (int k = 0; k < 1000; ++k) {
+        const Net& net = surface.patches[static_cast<std::size_t>(k) % surface.patches.size()];
+        dvec2 at = make.in_triangle();
+        at = 0.01 + 0.97 * at;
+        const dvec3 target = net_point(net, at.x, at.y);
+        Ray ray;
+        ray.origin = target + dvec3(make.uniform(-3, 3), make.uniform(-3, 3), make.uniform(-3, 3));
+        ray.direction = target - ray.origin;
+        const Meeting expected = meet(matrix, ray);
+        const auto describe = [&] { return fmt::format("{} ray {}", c.parameters, k); };
+        const std::vector<Hit> found = tracer.all(ray);
+        ++rays;
+        bool at_target = false;
+        for (const Hit& hit : found) {
+          ++hits;
+          double off = INFINITY;
+          for (int i = 0; i < expected.count; ++i) off = std::min(off, std::abs(hit.t - expected.t[i]));
+          const double cosine = std::abs(glm::dot(hit.normal, ray.direction)) / glm::length(ray.direction);
+          // Some ulps on the surface, stretched along the ray; a double root to its square root.
+          const double stretch = 64 * 0x1p-52 * (1 + glm::length(hit.point)) / glm::length(ray.direction);
+          worst.add(off, std::min(stretch / cosine, std::sqrt(stretch)) + 16 * 0x1p-52, describe);
+          at_target = at_target || std::abs(hit.t - 1.0) < 1e-6;
+        }
+        lost += !at_target;
+        invented += static_cast<int>(found.size()) > expected.count;
+      }
+    }
+  }
+  INFO(rays << " rays, " << hits << " hits; " << worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(lost == 0);
+  CHECK(invented == 0);
+}
+
+TEST_CASE("on a closed ellipsoid every line meets as many patches as roots", "[surfaces]") {
+  NetMaker make(63);
+  const Surface surface = build_family(object(cases[0].parameters));
+  const Tracer tracer({{surface, Solver::newton}});
+  const lmat4 matrix = matrix_of(cases[0].quadric);
+  int wrong = 0, twice = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Ray ray;
+    ray.origin = {make.uniform(-4, 4), make.uniform(-4, 4), -3};
+    ray.direction = dvec3(make.uniform(-2, 2), make.uniform(-1, 1), make.uniform(-0.5, 0.5)) - ray.origin;
+    const Meeting expected = meet(matrix, ray);
+    wrong += static_cast<int>(tracer.all(ray).size()) != expected.count;
+    twice += expected.count == 2;
+  }
+  CHECK(wrong == 0);
+  CHECK(twice > 1000);
+}
+
+TEST_CASE("rulings bound patches by straight lines where they say", "[surfaces]") {
+  const Surface surface = build_family(
+      object(R"("quadric": "one_sheet", "semi_axes": [1, 2, 3], "rulings": [[-30, 40], [-20, 35]])"));
+  const auto& net = std::get<TensorNet>(surface.patches.at(0));
+  CHECK((net.m == 1 && net.n == 1));
+  const dvec3 corner = net_point(net, 1.0, 0.0);  // longitude 40 - 20, height tan(40 + 20)
+  const double radians = std::acos(-1.0) / 180.0;
+  CHECK(corner.z == Approx(3 * std::tan(60 * radians)));
+  CHECK(corner.y / corner.x == Approx(2 * std::tan(20 * radians)));
+  const Surface other =
+      build_family(object(R"("quadric": "hyperbolic_paraboloid", "rulings": [[-1, 2], [-2, 1]])"));
+  CHECK(glm::distance(net_point(other.patches.at(0), 1.0, 1.0), dvec3(1.5, 0.5, 2)) < 1e-15);
+}
+
+TEST_CASE("what no quadric patch can be is refused", "[surfaces]") {
+  const auto refused = [](const char* parameters, const std::string& part) {
+    const std::string message = family_error(object(parameters));
+    INFO(parameters << "\n" << message);
+    CHECK(message.find(part) != std::string::npos);
+  };
+  refused(R"("quadric": "ellipsoid")", "give the patch as");
+  refused(R"("surface": {"type": "sphere_cap"}, "rulings": [[0,1],[0,1]])",
+          "either \"surface\" or \"rulings\"");
+  refused(R"("surface": {"type": "sphere"})", "must be of a type that makes patches of the sphere");
+  refused(R"("surface": {"type": "sphere_cap", "radius": 2})", "radius");
+  refused(R"("surface": {"type": "sphere_cap", "z_max": 2})", "z_max");
+  refused(R"("surface": {"type": "sphere_tiling"}, "quadric": "two_sheets")", "one side of z = 0");
+  refused(R"("surface": {"type": "sphere_tiling"}, "quadric": "elliptic_paraboloid")",
+          "must not contain (0, 0, 1)");
+  refused(R"("surface": {"type": "sphere_tiling"}, "quadric": "one_sheet")", "carries straight lines");
+  refused(R"("rulings": [[0,1],[0,1]])", "carries no straight lines");
+  refused(R"("quadric": "one_sheet", "rulings": [[0,100],[0,1]])", "90 degrees or more");
+  refused(R"("quadric": "one_sheet", "rulings": [[1,0],[0,1]])", "the lower first");
+  refused(R"("quadric": "one_sheet", "rulings": [[0,1]])", "two intervals");
+  refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,0]])",
+          "an elliptic cone");
+  refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])",
+          "an imaginary ellipsoid");
+  refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,-1]])",
+          "an elliptic cylinder");
+  refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[1,0,0,-1]])",
+          "must be symmetric");
+  refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]])",
+          "a plane or nothing");
+  refused(R"("surface": {"type": "sphere_cap"}, "semi_axes": [1,1,1], "matrix": [[1,0,0,0]])",
+          "\"matrix\" says all");
+  refused(R"("quadric": "one_sheet", "preimage": [
+      {"degree": [1, 1], "net": [[[-1,-1,1,2],[-1,1,1,2]],[[1,-1,1,2],[1,1,1,2]]]}])",
+          "(u, v) = (0.5, 0.5)");
+}
+
+}  // namespace rondure
