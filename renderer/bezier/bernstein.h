@@ -11,6 +11,9 @@ constexpr int dynamic = -1;
 // Nets of a higher degree are refused where they enter, so that evaluation works in buffers on the stack.
 constexpr int max_degree = 24;
 
+// Coefficients of the largest net.
+constexpr int max_net_size = (max_degree + 1) * (max_degree + 1);
+
 // The normal polynomial of a net of degree n has degree 3 n - 2 at most.
 constexpr int max_binomial_degree = 3 * max_degree;
 

@@ -145,27 +145,30 @@ SecondOrder<T> tensor_second(const T* net, int m, int n, double u, double v) {
 }
 
 // The same polynomial over [u0, u1] x [v0, v1], as a net over the unit square; the limits may lie anywhere
-// and in either order. Neighbours cut at the same parameter agree there bit for bit. `out` must not overlap
-// `net`.
+// and in either order. Neighbours cut at the same parameter agree there bit for bit. `out` may be `net`.
 template <class T>
 void tensor_restrict(const T* net, int m, int n, double u0, double u1, double v0, double v1, T* out) {
-  const int stride = n + 1;
-  for (int j = 0; j <= n; ++j) curve_restrict(net + j, m, stride, u0, u1, out + j, stride);
-  for (int i = 0; i <= m; ++i) curve_restrict(out + i * stride, n, 1, v0, v1, out + i * stride, 1);
+  T rows[max_net_size], columns[max_net_size];
+  curves_restrict(net, m, n + 1, u0, u1, rows);
+  for (int i = 0; i <= m; ++i)
+    for (int j = 0; j <= n; ++j) columns[j * (m + 1) + i] = rows[i * (n + 1) + j];
+  curves_restrict(columns, n, m + 1, v0, v1, columns);
+  for (int i = 0; i <= m; ++i)
+    for (int j = 0; j <= n; ++j) out[i * (n + 1) + j] = columns[j * (m + 1) + i];
 }
 
 // The halves u in [0, 1/2] and [1/2, 1], each over the unit square.
 template <class T>
 void tensor_halve_u(const T* net, int m, int n, T* low, T* high) {
   const int stride = n + 1;
-  for (int j = 0; j <= n; ++j) curve_halve(net + j, m, stride, low + j, high + j, stride);
+  for (int j = 0; j <= n; ++j) curve_halve(net + j, m, stride, low + j, high + j);
 }
 
 template <class T>
 void tensor_halve_v(const T* net, int m, int n, T* low, T* high) {
   const int stride = n + 1;
   for (int i = 0; i <= m; ++i) {
-    curve_halve(net + i * stride, n, 1, low + i * stride, high + i * stride, 1);
+    curve_halve(net + i * stride, n, 1, low + i * stride, high + i * stride);
   }
 }
 

@@ -282,9 +282,7 @@ class Search {
     from = glm::max(from - 1e-12, dvec2(0.0)), to = glm::min(to + 1e-12, dvec2(1.0));
     const dvec2 kept = to - from;
     if (kept.x * kept.y > 0.5 || frame.depth + 1 >= depth_limit) return false;
-    dvec2* scratch = work_->turned.data();
-    tensor_restrict(f, shape_.m, shape_.n, from.x, to.x, from.y, to.y, scratch);
-    std::copy(scratch, scratch + size_, f);
+    tensor_restrict(f, shape_.m, shape_.n, from.x, to.x, from.y, to.y, f);
     frame.cell = {Shape::to_patch(frame.cell, from), Shape::to_patch(frame.cell, to)};
     ++frame.depth;
     return true;

@@ -25,8 +25,7 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
         break;
     }
   }
-  constexpr int largest_net = (max_degree + 1) * (max_degree + 1);
-  dvec2 projected[largest_net];
+  dvec2 projected[max_net_size];
   project_net(points_of(net), ray, projected);
   // Kept by the thread, so that nothing is allocated once it is warm.
   static thread_local std::vector<Root> candidates;
