@@ -14,6 +14,9 @@ namespace {
 // and contract less; at 0.05 a tenth of the rays that hit a sphere are left undecided, at 0.1 a third, at
 // 0.025 few, for twice the leaves.
 constexpr double target_contraction = 0.05;
+// Where the parametrisation is so even that the first is small on the whole of a curved patch (central
+// projection of a plane, seen from that centre), this one tells. Elsewhere the first implies it.
+constexpr double oblique_contraction = 0.4;
 constexpr int weight_depth = 40;  // halvings after which a weight that is still not positive never will be
 
 RectangleCell enlarged(const RectangleCell& c) {
@@ -42,23 +45,36 @@ void place(const TriangleCell& c, Leaf& leaf) {
 
 dvec4 abs_max(const dvec4& a, const dvec4& b) { return glm::max(a, glm::abs(b)); }
 
-// |inverse of J| . (spreads), largest row sum, for the ray along the normal through the leaf's centre;
-// infinite where the surface has no normal.
-double contraction_head_on(const Leaf& leaf) {
+// |inverse of J| . (spreads), largest row sum, for the ray through the leaf's centre along which both planes
+// lie.
+double contraction(const Leaf& leaf, const dvec4& p0, const dvec4& p1) {
+  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db);
+  const double a1 = glm::dot(p1, leaf.da), b1 = glm::dot(p1, leaf.db);
+  const double s0 = glm::dot(glm::abs(p0), leaf.spread_a) + glm::dot(glm::abs(p0), leaf.spread_b);
+  const double s1 = glm::dot(glm::abs(p1), leaf.spread_a) + glm::dot(glm::abs(p1), leaf.spread_b);
+  const double in_a = std::fabs(b1) * s0 + std::fabs(b0) * s1, in_b = std::fabs(a1) * s0 + std::fabs(a0) * s1;
+  return std::max(in_a, in_b) / std::fabs(a0 * b1 - a1 * b0);
+}
+
+// Whether Newton's method contracts as it should for the ray along the normal, and somewhat for rays at 45
+// degrees to it; never where the surface has no normal.
+bool contracts(const Leaf& leaf) {
   const dvec3 x = dvec3(leaf.center) / leaf.center.w;
   const dvec3 xa = (dvec3(leaf.da) - x * leaf.da.w) / leaf.center.w,
               xb = (dvec3(leaf.db) - x * leaf.db.w) / leaf.center.w;
   const double length_a = glm::length(xa);
   const dvec3 normal = glm::cross(xa, xb);
-  if (!(glm::length(normal) > 1e-9 * length_a * glm::length(xb)) || !(length_a > 0.0)) return INFINITY;
-  const dvec3 e0 = xa / length_a, e1 = glm::normalize(glm::cross(normal, xa));
-  const dvec4 p0(e0, -glm::dot(e0, x)), p1(e1, -glm::dot(e1, x));
-  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db),
-               b1 = glm::dot(p1, leaf.db);  // a1 = 0 by choice
-  const double sa0 = glm::dot(glm::abs(p0), leaf.spread_a), sb0 = glm::dot(glm::abs(p0), leaf.spread_b);
-  const double sa1 = glm::dot(glm::abs(p1), leaf.spread_a), sb1 = glm::dot(glm::abs(p1), leaf.spread_b);
-  const double i00 = std::fabs(1.0 / a0), i01 = std::fabs(b0 / (a0 * b1)), i11 = std::fabs(1.0 / b1);
-  return std::max(i00 * (sa0 + sb0) + i01 * (sa1 + sb1), i11 * (sa1 + sb1));
+  if (!(glm::length(normal) > 1e-9 * length_a * glm::length(xb)) || !(length_a > 0.0)) return false;
+  const dvec3 n = glm::normalize(normal), e0 = xa / length_a, e1 = glm::normalize(glm::cross(normal, xa));
+  const auto plane = [&](const dvec3& across) { return dvec4(across, -glm::dot(across, x)); };
+  if (!(contraction(leaf, plane(e0), plane(e1)) < target_contraction)) return false;
+  for (const double side : {-1.0, 1.0}) {
+    if (!(contraction(leaf, plane(glm::normalize(e0 + side * n)), plane(e1)) < oblique_contraction))
+      return false;
+    if (!(contraction(leaf, plane(e0), plane(glm::normalize(e1 + side * n))) < oblique_contraction))
+      return false;
+  }
+  return true;
 }
 
 template <class Shape>
@@ -89,7 +105,7 @@ class Builder {
     leaf.patch = patch_;
     place(cell, leaf);
     linearise(cell, leaf);
-    const bool tame = positive && contraction_head_on(leaf) < target_contraction;
+    const bool tame = positive && contracts(leaf);
     if (tame || (positive && depth >= depth_)) {
       some_tame_ = some_tame_ || tame;
       leaf.scale = scale_of(cell);
