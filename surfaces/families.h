@@ -11,6 +11,7 @@ void register_circular_quad(Registry& registry);
 void register_circular_triangle(Registry& registry);
 void register_projected_net(Registry& registry);
 void register_quadric_patch(Registry& registry);
+void register_iss(Registry& registry);
 void register_sphere(Registry& registry);
 void register_sphere_cap(Registry& registry);
 void register_sphere_octant(Registry& registry);

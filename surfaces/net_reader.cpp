@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "renderer/bezier/triangle_keys.h"
+
 namespace rondure {
 namespace {
 
@@ -76,28 +78,6 @@ TensorNet read_tensor(Params& patch, const NetForm& form) {
   return net;
 }
 
-// The exponents of u, v, w in a key: "ijk", one digit each, or "i,j,k". False when it is neither.
-bool parse_index(const std::string& key, int index[3]) {
-  const bool separated = key.find(',') != std::string::npos;
-  int part = 0, digits = 0;
-  index[0] = index[1] = index[2] = 0;
-  for (const char c : key) {
-    if (c == ',') {
-      if (digits == 0 || ++part > 2) return false;
-      digits = 0;
-      continue;
-    }
-    if (c < '0' || c > '9') return false;
-    if (!separated && digits == 1) {
-      if (++part > 2) return false;
-      digits = 0;
-    }
-    if (++digits > 2) return false;
-    index[part] = index[part] * 10 + (c - '0');
-  }
-  return part == 2 && digits > 0;
-}
-
 TriangleNet read_triangle(Params& patch, const NetForm& form) {
   const Value& degree = required(patch, "degree");
   TriangleNet net(read_degree(patch, degree, form));
@@ -109,12 +89,12 @@ TriangleNet read_triangle(Params& patch, const NetForm& form) {
   for (const Value::Member& member : points.members) {
     Value key;
     key.where = member.where;
-    int index[3];
-    if (!parse_index(member.key, index) || index[0] + index[1] + index[2] != net.n) {
+    const std::optional<std::size_t> place = triangle_key(net.n, member.key);
+    if (!place) {
       patch.fail(key, fmt::format("\"{}\" is no index of this net: \"ijk\" or \"i,j,k\" with i + j + k = {}",
                                   member.key, net.n));
     }
-    const auto at = static_cast<std::size_t>(triangle_index(net.n, index[0], index[1]));
+    const std::size_t at = *place;
     if (given[at]) patch.fail(key, fmt::format("control point \"{}\" is given twice", member.key));
     given[at] = true;
     net.points[at] = read_point(patch, member.value, form);
@@ -122,9 +102,7 @@ TriangleNet read_triangle(Params& patch, const NetForm& form) {
   for (int i = net.n; i >= 0; --i) {
     for (int j = net.n - i; j >= 0; --j) {
       if (given[static_cast<std::size_t>(triangle_index(net.n, i, j))]) continue;
-      const char* key = net.n < 10 ? "{}{}{}" : "{},{},{}";
-      const std::string name = fmt::format(fmt::runtime(key), i, j, net.n - i - j);
-      patch.fail(points, fmt::format("control point \"{}\" is missing", name));
+      patch.fail(points, fmt::format("control point \"{}\" is missing", triangle_key_name(net.n, i, j)));
     }
   }
   refuse_zeros(patch, points, net.points, form);
