@@ -16,6 +16,7 @@ void register_sphere(Registry& registry);
 void register_sphere_cap(Registry& registry);
 void register_sphere_octant(Registry& registry);
 void register_sphere_tiling(Registry& registry);
+void register_spherical_bspline(Registry& registry);
 void register_spherical_quad(Registry& registry);
 void register_stereographic_patch(Registry& registry);
 

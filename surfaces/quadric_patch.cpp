@@ -24,6 +24,7 @@ Registry sphere_families() {
   register_sphere_cap(registry);
   register_sphere_octant(registry);
   register_sphere_tiling(registry);
+  register_spherical_bspline(registry);
   register_spherical_quad(registry);
   register_stereographic_patch(registry);
   return registry;

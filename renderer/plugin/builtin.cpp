@@ -7,11 +7,22 @@ namespace rondure {
 
 void register_builtins(Registry& registry) {
   constexpr void (*table[])(Registry&) = {
-      register_bezier,        register_circular_quad,  register_circular_triangle,
-      register_iss,           register_projected_net,  register_quadric_patch,
-      register_sphere,        register_sphere_cap,     register_sphere_octant,
-      register_sphere_tiling, register_spherical_quad, register_stereographic_patch,
-      register_direct,        register_normals,        register_path,
+      register_bezier,
+      register_circular_quad,
+      register_circular_triangle,
+      register_iss,
+      register_projected_net,
+      register_quadric_patch,
+      register_sphere,
+      register_sphere_cap,
+      register_sphere_octant,
+      register_sphere_tiling,
+      register_spherical_bspline,
+      register_spherical_quad,
+      register_stereographic_patch,
+      register_direct,
+      register_normals,
+      register_path,
   };
   for (const auto register_one : table) register_one(registry);
 }

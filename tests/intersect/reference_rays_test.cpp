@@ -95,7 +95,7 @@ TEST_CASE("The reference's ray cases come out as they should", "[hits]") {
   INFO("t: " << totals.t.text());
   INFO("point: " << totals.point.text());
   INFO("parameters: " << totals.parameter.text());
-  CHECK(files == 47);
+  CHECK(files == 48);
   CHECK(totals.wrong == 0);
   CHECK(totals.t.failures() == 0);
   CHECK(totals.point.failures() == 0);

@@ -56,6 +56,10 @@ Json scene_with(const std::string& kind, const std::string& type, Json::json_poi
     scene[place]["corners"] = Json::parse("[[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]]");
   if (type == "circular_triangle") scene[place]["corners"] = Json::parse("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
   if (type == "quadric_patch") scene[place]["surface"] = Json::parse(R"({ "type": "sphere_tiling" })");
+  if (type == "spherical_bspline") {
+    scene[place]["net"] = Json::parse(
+        "[[[1,0,0,0],[1,0,1,0],[1,0,2,0]],[[1,1,0,0],[1,1,1,0],[1,1,2,0]],[[1,2,0,0],[1,2,1,0],[1,2,2,0]]]");
+  }
   if (type == "point") scene[place]["position"] = Json::parse("[0, 0, 5]");
   if (type == "environment") {
     const std::string file = fresh_folder("docs") + "/image.exr";
