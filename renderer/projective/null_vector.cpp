@@ -16,11 +16,16 @@ Complex inner(const Row& a, const Row& b) {
   return sum;
 }
 
-// Rotates two rows until they are orthogonal; false when they are already.
-bool rotate(Row& p, Row& q) {
+// Singular values below this fraction of the greatest are zero.
+constexpr long double negligible = 1e-13L;
+
+// Rotates two rows until they are orthogonal; false when they are already, or shorter than `zero`, whose
+// square is given.
+bool rotate(Row& p, Row& q, long double zero) {
   const long double pp = inner(p, p).real(), qq = inner(q, q).real();
   const Complex pq = inner(p, q);
   const long double size = std::abs(pq);
+  if (pp <= zero || qq <= zero) return false;
   if (!(size > 4 * std::numeric_limits<long double>::epsilon() * std::sqrt(pp * qq))) return false;
   const Complex phase = pq / size;
   const long double theta = (qq - pp) / (2 * size);
@@ -42,17 +47,24 @@ NullVector null_vector(std::vector<Row> rows) {
   for (Row& row : rows) {
     for (Complex& c : row) c = std::conj(c);
   }
+  long double total = 0;
+  for (const Row& row : rows) total += inner(row, row).real();
+  // Far below what counts: rows that rotations have emptied are only noise.
+  const long double zero = 1e-34L * total;
   bool turned = true;
   for (int sweep = 0; turned && sweep < 60; ++sweep) {
     turned = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t j = i + 1; j < rows.size(); ++j) turned = rotate(rows[i], rows[j]) || turned;
+      for (std::size_t j = i + 1; j < rows.size(); ++j) turned = rotate(rows[i], rows[j], zero) || turned;
     }
   }
   std::sort(rows.begin(), rows.end(),
             [](const Row& a, const Row& b) { return inner(a, a).real() > inner(b, b).real(); });
-  const long double largest = std::sqrt(inner(rows.front(), rows.front()).real());
-  NullVector out{{}, std::sqrt(inner(rows.back(), rows.back()).real()) / largest};
+  const auto length_of = [](const Row& row) { return std::sqrt(inner(row, row).real()); };
+  const long double largest = length_of(rows.front());
+  while (rows.size() > 1 && length_of(rows.back()) <= negligible * largest) rows.pop_back();
+  NullVector out{{}, length_of(rows.back()) / largest, unknowns - std::min(rows.size(), unknowns)};
+  if (out.nullity == 0) return out;
   // Of the unit vectors the one that sticks out of their span most.
   long double best = -1;
   for (std::size_t k = 0; k < unknowns; ++k) {
@@ -61,7 +73,6 @@ NullVector null_vector(std::vector<Row> rows) {
     for (int pass = 0; pass < 2; ++pass) {  // the second removes what rounding left
       for (const Row& row : rows) {
         const long double square = inner(row, row).real();
-        if (!(square > 0)) continue;
         const Complex along = inner(row, v) / square;
         for (std::size_t i = 0; i < unknowns; ++i) v[i] -= along * row[i];
       }

@@ -1,6 +1,7 @@
 // Bezier nets in projective 3-space and their images on quadrics (Dietz, Hoschek, Juettler 1993, section 2).
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,11 @@ Net sphere_image(const Preimage& preimage);
 // The image on any quadric: under delta, or ruled_image where that is ruled, and then map_to. Coordinates
 // that vanish but for rounding are exactly zero.
 Net quadric_image(const Preimage& preimage, const Quadric& quadric);
+
+// The other way (theorem 2.2): a preimage under delta of half the degree, unique up to a rotation of phase;
+// to about ten digits. Nothing when the net does not lie on the unit sphere, or has a degree that is odd, or
+// a factor common to all four coordinates.
+std::optional<Preimage> sphere_preimage(const Net& net);
 
 // Where the preimage vanishes, so that the image is no point: parameters (u, v). `ruled`: where the image
 // under ruled_image is none, which is where p0 = p1 = 0 or p2 = p3 = 0. At most `limit` are sought. What

@@ -143,6 +143,47 @@ TEST_CASE("base points are found where they are, and nowhere else", "[projective
   CHECK(base_points(ruled, false, 8).empty());
 }
 
+TEST_CASE("nets on the sphere have preimages (theorem 2.2)", "[projective]") {
+  NetMaker make(35);
+  WorstCase worst;
+  int none = 0;
+  for (int k = 0; k < 60; ++k) {
+    Preimage given;
+    if (k % 2 == 0) {
+      given = random_tensor(make, 1 + k / 2 % 3, 1 + k / 6 % 2);
+    } else {
+      given = random_triangle(make, 1 + k / 2 % 3);
+    }
+    Net net = sphere_image(given);
+    if (k % 5 == 0) {
+      for (dvec4& p : points_of(net)) p = -p;
+    }
+    const std::optional<Preimage> found = sphere_preimage(net);
+    none += !found;
+    if (!found) continue;
+    const Net again = sphere_image(*found);
+    double largest = 0.0;
+    for (const dvec4& p : points_of(net)) largest = std::max(largest, glm::length(p));
+    for (std::size_t i = 0; i < points_of(net).size(); ++i) {
+      const dvec4 expected = (k % 5 == 0 ? -1.0 : 1.0) * points_of(net)[i];
+      // The net's rounding, 2^-53, conditioned by the linear system.
+      worst.add(glm::length(points_of(again)[i] - expected), 1e-10 * largest,
+                [&] { return fmt::format("net {}", k); });
+    }
+  }
+  INFO(worst.text());
+  CHECK(none == 0);
+  CHECK(worst.failures() == 0);
+  // Off the sphere, of odd degree, with a common factor.
+  CHECK_FALSE(sphere_preimage(make.tensor(2, 2)).has_value());
+  CHECK_FALSE(sphere_preimage(make.tensor(2, 3)).has_value());
+  CHECK_FALSE(sphere_preimage(make.triangle(1)).has_value());
+  const TensorPreimage p = random_tensor(make, 1, 1);
+  const TensorPolynomial<long double> factor(1, 1, {1, 2, 3, 4});
+  const auto scaled = multiply(p, factor, [](const lvec4& a, long double b) { return b * a; });
+  CHECK_FALSE(sphere_preimage(sphere_image(scaled)).has_value());
+}
+
 TEST_CASE("the orientation is the Jacobian of the image", "[projective]") {
   NetMaker make(34);
   WorstCase worst;
