@@ -5,7 +5,10 @@
 // exact as the frame itself, and only the final sum t = slide + s rounds at the size of t.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 
 #include "renderer/intersect/ray.h"
@@ -24,13 +27,19 @@ struct LocalRay {
   dvec4 plane[2];
 };
 
-// |x| as the largest component: cheap, and within sqrt(3) of the length. Blind to NaN.
+// |x| as the largest component: cheap, and within sqrt(3) of the length. Blind to NaN, as std::fmax is, which
+// is a function call.
 inline double largest(const dvec3& x) {
-  return std::fmax(std::fmax(std::fabs(x.x), std::fabs(x.y)), std::fabs(x.z));
+  return std::max(std::max(std::max(0.0, std::fabs(x.x)), std::fabs(x.y)), std::fabs(x.z));
 }
 
 inline bool is_finite(const dvec3& x) {
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+}
+
+// 2^exponent, from -1022 to 1023.
+inline double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
 // False when the ray is not finite or has no direction: such a ray meets nothing.
@@ -39,7 +48,7 @@ inline bool make_local_ray(const dvec3& origin, const dvec3& direction, const dv
   if (!(size > 0.0) || !is_finite(direction) || !is_finite(origin)) return false;
   const int exponent = std::ilogb(size);
   // Two steps, so that neither factor overflows for denormal directions.
-  const double half = std::ldexp(1.0, -(exponent / 2)), rest = std::ldexp(1.0, -(exponent - exponent / 2));
+  const double half = power_of_two(-(exponent / 2)), rest = power_of_two(-(exponent - exponent / 2));
   out.direction = direction * half * rest;
   out.scale = half * rest;
   const dvec3& d = out.direction;

@@ -54,8 +54,10 @@ bool nearer(const Hit& a, const Hit& b) {
   return a.surface != b.surface ? a.surface < b.surface : a.patch < b.patch;
 }
 
-// Takes one crossing into the query. True when an occlusion query is settled.
-bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const dvec3& normal,
+// Takes one crossing into the query; `normal()` is the unit normal there, asked for hits that may be
+// reported. True when an occlusion query is settled.
+template <class Normal>
+bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
           const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = (*q.compiled)[surface].frame;
@@ -65,13 +67,13 @@ bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, c
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
   if (q.mode == Mode::all) {
-    hit.point = frame + point, hit.normal = normal;
+    hit.point = frame + point, hit.normal = normal();
     q.hits->push_back(hit);
     q.signs->push_back(c.sign);
     return false;
   }
   if (!q.best || nearer(hit, q.best)) {
-    hit.point = frame + point, hit.normal = normal;
+    hit.point = frame + point, hit.normal = normal();
     q.best = hit;
     far = std::min(far, round_far((hit.t + hit.t_error - q.far_origin) / q.far_scale));
   }
@@ -83,7 +85,7 @@ bool meets_box(const Query& q, const Box& box) {
   double enter = -INFINITY, leave = INFINITY;
   for (int k = 0; k < 3; ++k) {
     const double room =
-        1e-12 * (std::fabs(q.local.base[k]) + std::fmax(std::fabs(box.low[k]), std::fabs(box.high[k])) +
+        1e-12 * (std::fabs(q.local.base[k]) + std::max(std::fabs(box.low[k]), std::fabs(box.high[k])) +
                  (box.high[k] - box.low[k]));
     double a = (box.low[k] - room - q.local.base[k]) * q.inverse_direction[k];
     double b = (box.high[k] + room - q.local.base[k]) * q.inverse_direction[k];
@@ -112,7 +114,8 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
       const double error = ellipsoid_error(*compiled.ellipsoid);
       const Crossing c =
           make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
-      if (take(q, surface, 0, dvec2(0.0), hits[k].point, hits[k].normal, c, far)) return true;
+      const auto normal = [&] { return hits[k].normal; };
+      if (take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far)) return true;
     }
     return false;
   }
@@ -132,13 +135,13 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     const double w = s.value.w;
     const dvec3 x = dvec3(s.value) / w;
     const dvec3 xu = dvec3(s.du) - x * s.du.w, xv = dvec3(s.dv) - x * s.dv.w;
-    dvec3 normal = glm::cross(xu, xv);
+    const auto normal = [&] { return unit_normal(net, root.u, root.v, s); };
+    dvec3 across = glm::cross(xu, xv);
     // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
-    if (!(glm::length(normal) > 1e-6 * glm::length(xu) * glm::length(xv)))
-      normal = unit_normal(net, root.u, root.v);
+    if (!(glm::length(across) > 1e-6 * glm::length(xu) * glm::length(xv))) across = normal();
     // The parameters' own resolution counts too, as it does in `settle`.
     const double error = rounding + unit_roundoff * (largest(xu) + largest(xv));
-    const Crossing c = make_crossing(q.local, x, normal, error / w, leaf.scale.position / w, root.tangent);
+    const Crossing c = make_crossing(q.local, x, across, error / w, leaf.scale.position / w, root.tangent);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }
   return false;
@@ -176,17 +179,12 @@ struct Tracer::Implementation {
     return true;
   }
 
-  // What only a hit that is reported needs: the limit normal of a patch, the parameters of an analytic
-  // surface.
+  // What only a hit that is reported needs: the parameters of an analytic surface.
   void finish(Hit& hit) const {
-    const auto k = static_cast<std::size_t>(hit.surface);
-    if (const auto& ellipsoid = compiled[k].ellipsoid) {
-      const dvec2 p = ellipsoid_parameters(*ellipsoid, hit.point - compiled[k].frame);
-      hit.u = p.x, hit.v = p.y;
-    } else {
-      hit.normal =
-          unit_normal(surfaces[k].surface.patches[static_cast<std::size_t>(hit.patch)], hit.u, hit.v);
-    }
+    const CompiledSurface& surface = compiled[static_cast<std::size_t>(hit.surface)];
+    if (!surface.ellipsoid) return;
+    const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - surface.frame);
+    hit.u = p.x, hit.v = p.y;
   }
 
   Query make_query(const Ray& ray, Mode mode) const {
