@@ -5,19 +5,12 @@
 
 #include "renderer/projective/bspline.h"
 #include "renderer/projective/sphere_arc.h"
-#include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
+#include "tests/projective/random_arcs.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
 namespace {
-
-lvec3 direction(NetMaker& make) {
-  lvec3 d(0);
-  while (!(glm::length(d) > 0.1L && glm::length(d) < 1))
-    d = {make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1)};
-  return glm::normalize(d);
-}
 
 // De Casteljau.
 lvec4 at(std::vector<lvec4> c, long double t) {

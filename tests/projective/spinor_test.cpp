@@ -4,20 +4,13 @@
 #include <fmt/format.h>
 
 #include "renderer/projective/sphere_arc.h"
-#include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
 #include "tests/projective/integer_points.h"
+#include "tests/projective/random_arcs.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
 namespace {
-
-lvec3 direction(NetMaker& make) {
-  lvec3 d(0);
-  while (!(glm::length(d) > 0.1L && glm::length(d) < 1))
-    d = {make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1)};
-  return glm::normalize(d);
-}
 
 lvec3 point(const lvec4& x) { return lvec3(x) / x.w; }
 

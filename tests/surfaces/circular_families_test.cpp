@@ -43,7 +43,7 @@ TEST_CASE("patches of degree (2, 4) have the reference's nets", "[surfaces]") {
   const std::pair<const char*, const char*> cases[] = {{"24_cube_face", "circular_cube_face"},
                                                        {"24_icosa_rhombus", "circular_icosahedron_pair"},
                                                        {"24_small_circles", "circular_small_circles"},
-      {"24_cube_face", "tiling_cube_2_4"}};
+                                                       {"24_cube_face", "tiling_cube_2_4"}};
   for (const auto& [name, object] : cases) {
     // Corners and arcs in doubles stand with the ray cases.
     std::ifstream file(source_folder() + "/tests/data/rays/" + object + ".json");
