@@ -99,11 +99,13 @@ bool propose_on_graph(const Shape& shape, const dvec2* f, bool swapped, const Pr
   const Axes axes{swapped};
   struct Sample {
     double x, y, h;
-    bool inside;
+    bool on_graph, inside;
   };
   const auto sample = [&](double x, double y) {
-    const double h = along_graph(shape, f, axes, x, y).h;
-    return Sample{x, y, h, Shape::outside(axes.to_cell(x, y)) <= 1e-9};
+    const Along at = along_graph(shape, f, axes, x, y);
+    // Where the graph has left the cell far behind, the search for it ends anywhere.
+    const bool on_graph = std::fabs(at.miss) <= 1e-9;
+    return Sample{x, y, at.h, on_graph, on_graph && Shape::outside(axes.to_cell(x, y)) <= 1e-9};
   };
   const auto keep_sample = [&](const Sample& s) { propose(axes.to_cell(s.x, s.y)); };
   constexpr int steps = 16;
@@ -111,14 +113,15 @@ bool propose_on_graph(const Shape& shape, const dvec2* f, bool swapped, const Pr
   bool crossed = false;
   for (int k = 1; k <= steps; ++k) {
     const Sample next = sample(static_cast<double>(k) / steps, last.y);
-    if (last.inside && next.inside && (last.h < 0.0) != (next.h < 0.0)) {
+    const bool here = last.on_graph && next.on_graph && (last.inside || next.inside);
+    if (here && (last.h < 0.0) != (next.h < 0.0)) {
       Sample low = last, high = next;
       for (int j = 0; j < 24; ++j) {
         const Sample middle = sample(0.5 * (low.x + high.x), 0.5 * (low.y + high.y));
         ((middle.h < 0.0) == (low.h < 0.0) ? low : high) = middle;
       }
-      keep_sample(low);
-      crossed = true;
+      if (low.inside) keep_sample(low);
+      crossed = crossed || low.inside;
     }
     if (next.inside && (!least.inside || std::fabs(next.h) < std::fabs(least.h))) least = next;
     last = next;
