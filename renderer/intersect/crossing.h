@@ -32,6 +32,17 @@ inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dve
   return c;
 }
 
+// Where a double's step in the parameters moves the point by more than its rounding (`resolution`), it is
+// still on the surface, but beside the ray: the ray's place is then in the tangent plane, not at the foot of
+// the point. Elsewhere the normal, which may be beside a singular point, has nothing to mend.
+inline void move_to_tangent_plane(Crossing& c, const LocalRay& ray, const dvec3& point, const dvec3& normal,
+                                  double resolution) {
+  if (!(resolution > 0x1p-50 * (largest(point) + largest(ray.base)))) return;
+  const dvec3 beside = point - ray.base - c.s * ray.direction;
+  const double slide = glm::dot(normal, beside) / glm::dot(normal, ray.direction);
+  if (std::fabs(slide) <= c.s_error) c.s += slide;
+}
+
 // Whether a crossing of `surface` is a hit of the ray, whose local form is `local`; `t` receives its place on
 // the ray.
 //

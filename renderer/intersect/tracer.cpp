@@ -140,8 +140,10 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
     if (!(glm::length(across) > 1e-6 * glm::length(xu) * glm::length(xv))) across = normal();
     // The parameters' own resolution counts too, as it does in `settle`.
-    const double error = rounding + unit_roundoff * (largest(xu) + largest(xv));
-    const Crossing c = make_crossing(q.local, x, across, error / w, leaf.scale.position / w, root.tangent);
+    const double step = unit_roundoff * (largest(xu) + largest(xv));
+    Crossing c =
+        make_crossing(q.local, x, across, (rounding + step) / w, leaf.scale.position / w, root.tangent);
+    move_to_tangent_plane(c, q.local, x, across, step / w);
     if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
   }
   return false;
@@ -220,9 +222,6 @@ CompiledSurface compile(const Surface& surface, int max_depth) {
 }
 
 }  // namespace
-
-SurfaceError::SurfaceError(std::size_t index, const std::string& why)
-    : std::runtime_error(fmt::format("object {}: {}", index, why)), surface(index), reason(why) {}
 
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;

@@ -26,7 +26,8 @@ struct TracerStatistics {
 
 // A surface that no solver can meet. The message names its index and the patch.
 struct SurfaceError : std::runtime_error {
-  SurfaceError(std::size_t index, const std::string& why);
+  SurfaceError(std::size_t index, const std::string& why)
+      : std::runtime_error("object " + std::to_string(index) + ": " + why), surface(index), reason(why) {}
 
   std::size_t surface;
   std::string reason;  // without the index

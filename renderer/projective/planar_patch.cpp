@@ -1,6 +1,5 @@
 #include "renderer/projective/planar_patch.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderer/projective/stereographic.h"
@@ -18,27 +17,30 @@ Polynomial polynomial(const long double (&c)[3][3]) {
   return p;
 }
 
-std::array<Polynomial, 4> composed(const PlanarBiquadratic& planar) {
-  return to_sphere(PlanarMap<Polynomial>{polynomial(planar.x), polynomial(planar.y), polynomial(planar.w)});
+Polynomial magnitudes(Polynomial p) {
+  for (long double& c : p.coefficients) c = std::abs(c);
+  return p;
 }
 
-// `place` turns the points to where they belong.
-template <class Place>
-TensorNet rounded_net(const std::array<Polynomial, 4>& sphere, long double scale, const Place& place) {
-  long double largest = 0;
-  for (const Polynomial& p : sphere) {
-    for (const long double c : p.coefficients) largest = std::max(largest, std::abs(c));
-  }
+// `scale` times the composition, its points turned by the columns of `turn`.
+TensorNet composed(const PlanarBiquadratic& planar, long double scale, const lvec3 (&turn)[3]) {
+  const Polynomial x = polynomial(planar.x), y = polynomial(planar.y), w = polynomial(planar.w);
+  const auto sphere = to_sphere(PlanarMap<Polynomial>{x, y, w});
+  // The same sums without signs; the last bounds that of z, too.
+  const auto sizes = to_sphere(PlanarMap<Polynomial>{magnitudes(x), magnitudes(y), magnitudes(w)});
   TensorNet net(sphere[0].m, sphere[0].n);
   for (std::size_t k = 0; k < net.points.size(); ++k) {
-    const lvec3 x =
-        place(lvec3(sphere[0].coefficients[k], sphere[1].coefficients[k], sphere[2].coefficients[k]));
-    const long double c[4] = {x.x, x.y, x.z, sphere[3].coefficients[k]};
-    for (int d = 0; d < 4; ++d) {
-      // What is left of a sum that vanishes exactly: some units of the last of the 64 bits.
-      const bool vanishes = std::abs(c[d]) < 0x1p-58L * largest;
-      net.points[k][d] = vanishes ? 0.0 : static_cast<double>(scale * c[d]);
+    const auto at = [&](const std::array<Polynomial, 4>& p, std::size_t d) { return p[d].coefficients[k]; };
+    const auto put = [&](int d, long double value, long double size) {
+      // What is left of a sum that vanishes exactly: some units of the last of the 64 bits of its terms.
+      net.points[k][d] = std::abs(value) <= 0x1p-58L * size ? 0.0 : static_cast<double>(scale * value);
+    };
+    for (int d = 0; d < 3; ++d) {
+      put(d, turn[0][d] * at(sphere, 0) + turn[1][d] * at(sphere, 1) + turn[2][d] * at(sphere, 2),
+          std::abs(turn[0][d]) * at(sizes, 0) + std::abs(turn[1][d]) * at(sizes, 1) +
+              std::abs(turn[2][d]) * at(sizes, 3));
     }
+    put(3, at(sphere, 3), at(sizes, 3));
   }
   return net;
 }
@@ -67,14 +69,11 @@ PlanarBiquadratic cube_square(long double middle_weight) {
 }
 
 TensorNet sphere_patch(const PlanarBiquadratic& planar, long double scale) {
-  const auto sphere = composed(planar);
-  return rounded_net(sphere, scale, [](const lvec3& p) { return p; });
+  return composed(planar, scale, {lvec3(1, 0, 0), lvec3(0, 1, 0), lvec3(0, 0, 1)});
 }
 
 TensorNet sphere_patch(const PlanarBiquadratic& planar, const Frame& frame) {
-  const auto sphere = composed(planar);
-  return rounded_net(sphere, 1,
-                     [&](const lvec3& p) { return frame.e1 * p.x + frame.e2 * p.y - frame.centre * p.z; });
+  return composed(planar, 1, {frame.e1, frame.e2, -frame.centre});
 }
 
 }  // namespace rondure
