@@ -119,7 +119,7 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere\", \"solver\": \"exact\"}",
        "s.json:1:44: \"solver\" must be one of \"newton\", \"clipping\", found \"exact\""},
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",
-       "s.json:1:47: \"z_max\" must be a number in (-1, 1), found 1"},
+       "s.json:1:47: \"z_max\" must be a number in (-1, 0.999999999], found 1"},
       {"{\"type\": \"sphere_tiling\", \"topology\": \"cubes\"}",
        "s.json:1:53: \"topology\" must be one of \"hemispheres\", \"cube\", \"cube_2_4\", "
        "\"icosahedron_pairs\", \"octahedron_pairs\", \"tetrahedron_quads\", \"octahedron_quads\", "

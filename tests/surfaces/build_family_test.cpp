@@ -41,6 +41,9 @@ TEST_CASE("families take their numbers from the stated ranges only", "[surfaces]
   refused(R"({"type": "sphere_cap", "z_max": -1})", "z_max");
   refused(R"({"type": "sphere_cap", "z_max": "low"})", "z_max");
   refused(R"({"type": "sphere_cap", "middle_weight": 0})", "middle_weight");
+  refused(R"({"type": "sphere_cap", "middle_weight": 1.1e6})", "middle_weight");
+  refused(R"({"type": "sphere_cap", "z_max": 0.99, "middle_weight": 10.1})", "middle_weight");
+  CHECK(family_error(R"({"type": "sphere_cap", "z_max": 0.99, "middle_weight": 10.2})") == "no error");
   refused(R"({"type": "sphere_tiling", "topology": "cubes"})", "cube");
   refused(R"({"type": "sphere_tiling", "middle_weight": -1})", "middle_weight");
   refused(R"({"type": "sphere_octant", "octants": []})", "octants is empty: name at least one of 0 to 7");
