@@ -12,16 +12,19 @@ namespace {
 using Kind = Value::Kind;
 
 dvec4 read_point(const Params& patch, const Value& value, const NetForm& form) {
-  if (value.kind != Kind::array || value.items.size() != 4) {
-    patch.fail(value, fmt::format("a control point is an array of four numbers, {}", form.point));
+  const std::size_t count = value.items.size();
+  const bool fits = form.planar ? count == 2 || count == 3 : count == 4;
+  if (value.kind != Kind::array || !fits) {
+    patch.fail(value, fmt::format("a control point is an array of {} numbers, {}",
+                                  form.planar ? "two or three" : "four", form.point));
   }
-  dvec4 point(0.0);
-  for (int c = 0; c < 4; ++c) {
-    const Value& item = value.items[static_cast<std::size_t>(c)];
+  dvec4 point(0.0, 0.0, 0.0, 1.0);
+  for (int c = 0; const Value& item : value.items) {
     if (item.kind != Kind::number || !std::isfinite(item.number)) {
       patch.fail(item, "a coordinate of a control point must be a finite number");
     }
-    point[c] = item.number;
+    point[form.planar && c == 2 ? 3 : c] = item.number;
+    ++c;
   }
   return point;
 }

@@ -232,7 +232,9 @@ std::vector<std::int64_t> Params::integers(std::string_view key, std::int64_t lo
 
 Params Params::object(std::string_view key) {
   const Value& value = required(key, Value::Kind::object, "an object, { ... }");
-  return Params(value, source_, what_.empty() ? std::string(key) : fmt::format("{}.{}", what_, key));
+  Params inside(value, source_, what_.empty() ? std::string(key) : fmt::format("{}.{}", what_, key));
+  inside.registry_ = registry_;
+  return inside;
 }
 
 std::vector<Params> Params::objects(std::string_view key) {
@@ -241,6 +243,7 @@ std::vector<Params> Params::objects(std::string_view key) {
   for (const Value& item : value.items) {
     const std::string parent = what_.empty() ? std::string(key) : fmt::format("{}.{}", what_, key);
     result.emplace_back(item, source_, fmt::format("{}[{}]", parent, result.size()));
+    result.back().registry_ = registry_;
   }
   return result;
 }

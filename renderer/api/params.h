@@ -19,6 +19,8 @@
 
 namespace rondure {
 
+class Registry;
+
 // A scene file's text, kept so that messages can show the line.
 struct SourceText {
   std::string name;  // path as the user gave it
@@ -120,9 +122,15 @@ class Params {
   SourcePosition where() const { return value_->where; }
   const SourceText* source() const { return source_; }
 
+  // The families that an object inside may name (nested_surface in renderer/api/registry.h); null where none
+  // can be named. Objects read from this one inherit it.
+  const Registry* registry() const { return registry_; }
+  void set_registry(const Registry& registry) { registry_ = &registry; }
+
  private:
   const Value* value_;
   const SourceText* source_;
+  const Registry* registry_ = nullptr;
   std::string what_;
   // Names asked for, and whether they were read. Shared by copies, so that a Params passed by value still
   // counts.

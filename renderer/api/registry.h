@@ -28,4 +28,11 @@ class Registry {
   std::map<std::string, IntegratorFactory, std::less<>> integrators_;
 };
 
+// The family that "type" names; an unknown name is an error that gives the nearest.
+const SurfaceFamily& family_of(Params& params, const Registry& registry);
+
+// For families made from others: builds the surface that the object under `key` describes, {"type": a family,
+// and that family's parameters}, in the family's own frame.
+Surface nested_surface(Params& params, std::string_view key);
+
 }  // namespace rondure

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/scene/unknown_name.h"
+
 namespace rondure {
 namespace {
 
@@ -47,5 +49,20 @@ const IntegratorFactory* Registry::integrator(std::string_view name) const {
 }
 std::vector<std::string> Registry::family_names() const { return names_of(families_); }
 std::vector<std::string> Registry::integrator_names() const { return names_of(integrators_); }
+
+const SurfaceFamily& family_of(Params& params, const Registry& registry) {
+  const std::string type = params.text("type");
+  const SurfaceFamily* family = registry.family(type);
+  if (!family) params.fail("type", unknown_name("type", type, registry.family_names()));
+  return *family;
+}
+
+Surface nested_surface(Params& params, std::string_view key) {
+  if (!params.registry()) params.fail(key, "no family can be named here");
+  Params inside = params.object(key);
+  Surface surface = family_of(inside, *params.registry()).build(inside);
+  inside.finish();
+  return surface;
+}
 
 }  // namespace rondure

@@ -71,9 +71,9 @@ SceneObject read_object(Params& params, const Registry& registry,
                         const std::map<std::string, int>& materials) {
   SceneObject object;
   object.where = params.where();
-  object.type = params.text("type");
-  const SurfaceFamily* family = registry.family(object.type);
-  if (!family) params.fail("type", unknown_name("type", object.type, registry.family_names()));
+  const SurfaceFamily& family = family_of(params, registry);
+  object.type = family.name;
+  params.set_registry(registry);
   object.name = params.text("name", params.what());
   Placement placement;
   placement.center = params.vec3("center", placement.center);
@@ -83,7 +83,7 @@ SceneObject read_object(Params& params, const Registry& registry,
   object.traced.solver = params.choice("solver", {"newton", "clipping"}, "newton") == "clipping"
                              ? Solver::clipping
                              : Solver::newton;
-  object.traced.surface = family->build(params);
+  object.traced.surface = family.build(params);
   params.finish();
   try {
     place(object.traced.surface, placement);

@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "renderer/bezier/common_factor.h"
 #include "renderer/bezier/rational.h"
@@ -14,7 +12,7 @@
 #include "renderer/projective/stereographic.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
-#include "tests/paths.h"
+#include "tests/reference_data.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -24,10 +22,7 @@ namespace {
 using Tensor = TensorPolynomial<double>;
 using json = nlohmann::json;
 
-json tables() {
-  std::ifstream file(source_folder() + "/tests/data/cobb_curvature.json");
-  return json::parse(file);
-}
+json tables() { return reference_data("cobb_curvature.json"); }
 
 Tensor read_tensor(const json& rows) {
   Tensor p(static_cast<int>(rows.size()) - 1, static_cast<int>(rows[0].size()) - 1);

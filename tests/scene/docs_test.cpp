@@ -52,6 +52,10 @@ Json scene_with(const std::string& kind, const std::string& type, Json::json_poi
     scene[place]["patches"] =
         Json::parse(R"([{ "degree": [1, 1], "net": [[[1,0,0,0],[1,0,1,0]],[[1,1,0,0],[1,1,1,0]]] }])");
   }
+  if (type == "composed_patch") {
+    scene[place]["of"] = Json::parse(R"({ "type": "sphere_cap" })");
+    scene[place]["domain"] = Json::parse(R"({ "degree": [1, 1], "net": [[[0,0],[0,1]],[[1,0],[1,1]]] })");
+  }
   if (type == "spherical_quad" || type == "circular_quad")
     scene[place]["corners"] = Json::parse("[[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]]");
   if (type == "circular_triangle") scene[place]["corners"] = Json::parse("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");

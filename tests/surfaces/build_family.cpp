@@ -12,10 +12,8 @@ Surface build_family(const std::string& text) {
   // Named as a file of the data folder, so that relative paths start there.
   const Document document = read_json_text(source_folder() + "/tests/data/object.json", text);
   Params params(document.root, document.source.get(), "the object");
-  const std::string type = params.text("type");
-  const SurfaceFamily* family = registry.family(type);
-  if (family == nullptr) throw std::invalid_argument("no family is called " + type);
-  Surface surface = family->build(params);
+  params.set_registry(registry);
+  Surface surface = family_of(params, registry).build(params);
   params.finish();
   return surface;
 }

@@ -1,0 +1,81 @@
+#include "renderer/bezier/planar_domain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/bezier/tensor.h"
+#include "renderer/bezier/triangle.h"
+
+namespace rondure {
+namespace {
+
+constexpr int deepest = 7;
+constexpr double slack = 0x1p-30;
+
+// The least of what must not be negative inside the domain.
+double inside_by(const dvec4& p, ParameterDomain domain) {
+  if (domain == ParameterDomain::triangle) return std::min({p.x, p.y, p.w - p.x - p.y});
+  return std::min({p.x, p.w - p.x, p.y, p.w - p.y});
+}
+
+bool clear(const std::vector<dvec4>& points, ParameterDomain domain) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const dvec4& p) { return p.w > 0.0 && inside_by(p, domain) >= -slack * p.w; });
+}
+
+std::optional<DomainFault> fault_at(const dvec4& p, ParameterDomain domain) {
+  if (!(p.w > 0.0)) return DomainFault{true, dvec2(0.0)};
+  if (inside_by(p, domain) < -slack * p.w) return DomainFault{false, dvec2(p) / p.w};
+  return std::nullopt;
+}
+
+std::vector<dvec4> corners_of(const TensorNet& net) {
+  return {net.at(0, 0), net.at(net.m, 0), net.at(0, net.n), net.at(net.m, net.n)};
+}
+std::vector<dvec4> corners_of(const TriangleNet& net) {
+  return {net.at(net.n, 0), net.at(0, net.n), net.at(0, 0)};
+}
+
+std::vector<TensorNet> quarters_of(const TensorNet& net) {
+  std::vector<TensorNet> half(2, TensorNet(net.m, net.n)), out(4, TensorNet(net.m, net.n));
+  tensor_halve_u(net.points.data(), net.m, net.n, half[0].points.data(), half[1].points.data());
+  for (std::size_t k = 0; k < 2; ++k) {
+    tensor_halve_v(half[k].points.data(), net.m, net.n, out[2 * k].points.data(),
+                   out[2 * k + 1].points.data());
+  }
+  return out;
+}
+
+std::vector<TriangleNet> quarters_of(const TriangleNet& net) {
+  std::vector<TriangleNet> out(4, TriangleNet(net.n));
+  triangle_quarter(net.points.data(), net.n, out[0].points.data(), out[1].points.data(), out[2].points.data(),
+                   out[3].points.data());
+  return out;
+}
+
+template <class N>
+std::optional<DomainFault> search(const N& net, ParameterDomain domain, int depth) {
+  if (clear(net.points, domain)) return std::nullopt;
+  for (const dvec4& corner : corners_of(net)) {
+    if (const auto fault = fault_at(corner, domain)) return fault;
+  }
+  if (depth == deepest) {
+    // A weight that may vanish between the corners is one too many; so near an edge of the domain all is
+    // well.
+    const bool positive =
+        std::all_of(net.points.begin(), net.points.end(), [](const dvec4& p) { return p.w > 0.0; });
+    return positive ? std::nullopt : std::optional(DomainFault{true, dvec2(0.0)});
+  }
+  for (const N& part : quarters_of(net)) {
+    if (const auto fault = search(part, domain, depth + 1)) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DomainFault> domain_fault(const Net& planar, ParameterDomain domain) {
+  return std::visit([&](const auto& net) { return search(net, domain, 0); }, planar);
+}
+
+}  // namespace rondure
