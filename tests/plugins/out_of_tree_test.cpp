@@ -87,10 +87,11 @@ void check_loading(const ThirdParty& made) {
 void check_search_order(const ThirdParty& made) {
   const std::string program = made.prefix + "/bin/rondure";
   const std::string installed = made.prefix + "/lib/rondure/plugins/paraboloid.so";
-  const auto shows = [](const ProcessResult& result, const std::string& word) {
+  // The name heads a line; summaries may hold the same word.
+  const auto shows = [](const ProcessResult& result, const std::string& name) {
     INFO(result.err);
     CHECK(result.exit_code == 0);
-    return result.out.find(word) != std::string::npos;
+    return result.out.find("\n  " + name + " ") != std::string::npos;
   };
   CHECK_FALSE(shows(run_process({program, "list"}), "paraboloid"));
   CHECK(shows(run_process({program, "list", "--plugin", made.plugins + "/paraboloid.so"}), "paraboloid"));
