@@ -8,6 +8,7 @@
 
 #include "renderer/bezier/rational.h"
 #include "renderer/sampling/warps.h"
+#include "renderer/shading/sphere_cone.h"
 
 namespace rondure {
 namespace {
@@ -76,10 +77,32 @@ dmat3 cofactor_matrix(const dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
+// The radius of the sphere that the matrix makes of the unit sphere; 0 when that is none. What it may differ
+// by is far below what a float of the picture could show.
+double sphere_radius(const dmat3& m) {
+  const double radius = glm::length(m[0]);
+  if (!(radius > 0.0)) return 0.0;
+  const dmat3 turn = m / radius, product = glm::transpose(turn) * turn;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!(std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) <= 1e-12)) return 0.0;
+    }
+  }
+  return radius;
+}
+
+// What a density per area is per solid angle: 0 for a surface that faces away.
+double per_solid_angle(double density, const dvec3& way, const dvec3& normal) {
+  const double distance2 = glm::dot(way, way);
+  const double cosine = -glm::dot(way, normal) / std::sqrt(distance2);
+  return cosine > 0.0 ? density * distance2 / cosine : 0.0;
+}
+
 }  // namespace
 
 SurfaceLight::SurfaceLight(const Surface& surface) : surface_(&surface) {
   if (surface.ellipsoid) {
+    radius_ = sphere_radius(*surface.ellipsoid);
     inverse_ = glm::inverse(*surface.ellipsoid);
     // A matrix that mirrors would turn the area vectors inward.
     cofactor_ =
@@ -146,6 +169,26 @@ double SurfaceLight::density(const Hit& hit) const {
   const dvec2 uv(hit.u, hit.v);
   const auto cell = patch * patch_cells + static_cast<std::size_t>(cell_at(is_triangle(net), uv));
   return cell_density(cell, element(net, uv).area_vector);
+}
+
+SurfaceLight::Direction SurfaceLight::sample_toward(const dvec3& from, dvec2 uv) const {
+  if (const auto cone = sphere_cone(from, surface_->origin, radius_)) {
+    const SphereCone::Sample s = cone->sample(uv);
+    return {s.direction, s.distance, cone->pdf()};
+  }
+  const Sample target = sample(uv);
+  const dvec3 way = target.point - from;
+  const double distance = glm::length(way);
+  if (!(distance > 0.0)) return {};
+  return {way / distance, distance, per_solid_angle(target.density, way, target.normal)};
+}
+
+double SurfaceLight::pdf_toward(const dvec3& from, const Hit& hit) const {
+  const dvec3 way = hit.point - from;
+  if (const auto cone = sphere_cone(from, surface_->origin, radius_)) {
+    return glm::dot(way, hit.normal) < 0.0 ? cone->pdf() : 0.0;
+  }
+  return per_solid_angle(density(hit), way, hit.normal);
 }
 
 }  // namespace rondure

@@ -144,13 +144,9 @@ double World::background_pdf(const dvec3& direction) const { return lights_->bac
 double World::light_pdf(const dvec3& point, const Hit& hit) const {
   const int area = lights_->area_of_surface[static_cast<std::size_t>(hit.surface)];
   if (area < 0) return 0.0;
-  const dvec3 way = hit.point - point;
-  const double distance2 = glm::dot(way, way);
-  const double cosine = -glm::dot(way, hit.normal) / std::sqrt(distance2);
-  if (!(cosine > 0.0)) return 0.0;
   const auto index = static_cast<std::size_t>(area);
-  return lights_->probability[lights_->first_area() + index] * lights_->areas[index].points.density(hit) *
-         distance2 / cosine;
+  return lights_->probability[lights_->first_area() + index] *
+         lights_->areas[index].points.pdf_toward(point, hit);
 }
 
 LightSample World::sample_light(const dvec3& point, double choice, dvec2 uv) const {
@@ -175,29 +171,25 @@ LightSample World::sample_light(const dvec3& point, double choice, dvec2 uv) con
     result.radiance = light.irradiance;
     return result;
   }
-  SurfaceLight::Sample target;
-  if (index < all.first_point()) {
-    target = all.areas[index - all.first_area()].points.sample(uv);
-    if (!(target.density > 0.0)) return {};
-  } else {
-    target.point = all.points[index - all.first_point()].position;
-  }
-  const dvec3 way = target.point - point;
-  const double distance2 = glm::dot(way, way);
-  if (!(distance2 > 0.0)) return {};
-  result.distance = std::sqrt(distance2);
-  result.direction = way / result.distance;
   if (index >= all.first_point()) {
+    const PointLight& light = all.points[index - all.first_point()];
+    const dvec3 way = light.position - point;
+    const double distance2 = glm::dot(way, way);
+    if (!(distance2 > 0.0)) return {};
     result.delta = true;
-    result.radiance = all.points[index - all.first_point()].intensity / distance2;
+    result.distance = std::sqrt(distance2);
+    result.direction = way / result.distance;
+    result.radiance = light.intensity / distance2;
     return result;
   }
   const AreaLight& light = all.areas[index - all.first_area()];
-  const double cosine = -glm::dot(result.direction, target.normal);
-  if (!(cosine > 0.0)) return {};
+  const SurfaceLight::Direction target = light.points.sample_toward(point, uv);
+  if (!(target.pdf > 0.0)) return {};
+  result.direction = target.direction;
+  result.distance = target.distance;
   result.surface = light.surface;
   result.radiance = light.radiance;
-  result.pdf *= target.density * distance2 / cosine;
+  result.pdf *= target.pdf;
   return std::isfinite(result.pdf) ? result : LightSample{};
 }
 
