@@ -15,22 +15,15 @@ class Direct : public Integrator {
     dvec3 result(0.0), throughput(1.0);
     Ray ray = camera_ray;
     Hit hit = first;
+    std::optional<ScatterSample> scattered;
     for (int depth = 0;; ++depth) {
-      result += throughput * found_light(world, ray, hit, nullptr);
-      if (!hit || depth == max_depth_) return result;
+      result += throughput * found_light(world, ray, hit, scattered ? &*scattered : nullptr);
+      const bool done = scattered && !scattered->specular;
+      if (!hit || done || depth == max_depth_) return result;
       sampler.start_block(depth + 1);
-      const double choice = sampler.next_1d(), lobe = sampler.next_1d();
-      const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
-      const dvec3 out = -ray.direction;
-      const Material& material = world.material(hit);
-      const auto scattered = sample_scattering(material, hit.normal, out, lobe, scatter_uv);
-      if (!is_specular(material)) {
-        result += throughput * sampled_light(world, material, hit, out, choice, light_uv);
-        if (!scattered) return result;
-        const Ray last = spawn(hit, scattered->direction);
-        const Hit met = world.tracer().closest(last);
-        return result + throughput * scattered->weight * found_light(world, last, met, &*scattered);
-      }
+      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      result += throughput * here.light;
+      scattered = here.scattered;
       if (!scattered) return result;
       throughput *= scattered->weight;
       ray = spawn(hit, scattered->direction);

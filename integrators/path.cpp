@@ -29,12 +29,10 @@ class Path : public Integrator {
       result += throughput * found_light(world, ray, hit, scattered ? &*scattered : nullptr);
       if (!hit || depth == settings_.max_depth) return result;
       sampler.start_block(depth + 1);
-      const double choice = sampler.next_1d(), lobe = sampler.next_1d(), roulette = sampler.next_1d();
-      const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
-      const dvec3 out = -ray.direction;
-      const Material& material = world.material(hit);
-      result += throughput * sampled_light(world, material, hit, out, choice, light_uv);
-      scattered = sample_scattering(material, hit.normal, out, lobe, scatter_uv);
+      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      const double roulette = sampler.next_1d();
+      result += throughput * here.light;
+      scattered = here.scattered;
       if (!scattered) return result;
       throughput *= scattered->weight;
       squeeze *= scattered->squeeze;

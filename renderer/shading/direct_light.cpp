@@ -1,6 +1,7 @@
 #include "renderer/shading/direct_light.h"
 
 namespace rondure {
+namespace {
 
 dvec3 sampled_light(const World& world, const Material& material, const Hit& hit, const dvec3& out,
                     double choice, dvec2 uv) {
@@ -13,6 +14,16 @@ dvec3 sampled_light(const World& world, const Material& material, const Hit& hit
       light.delta ? 1.0
                   : power_heuristic(light.pdf, scattering_pdf(material, hit.normal, out, light.direction));
   return scattered * (share / light.pdf);
+}
+
+}  // namespace
+
+Bounce bounce(const World& world, const Material& material, const Hit& hit, const dvec3& out,
+              Sampler& sampler) {
+  const double choice = sampler.next_1d(), lobe = sampler.next_1d();
+  const dvec2 light_uv = sampler.next_2d(), scatter_uv = sampler.next_2d();
+  return {sampled_light(world, material, hit, out, choice, light_uv),
+          sample_scattering(material, hit.normal, out, lobe, scatter_uv)};
 }
 
 dvec3 found_light(const World& world, const Ray& ray, const Hit& hit, const ScatterSample* scattered) {

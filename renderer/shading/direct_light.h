@@ -3,6 +3,9 @@
 // scattered ray finds.
 #pragma once
 
+#include <optional>
+
+#include "renderer/sampling/sampler.h"
 #include "renderer/shading/world.h"
 
 namespace rondure {
@@ -13,9 +16,14 @@ inline double power_heuristic(double own, double other) {
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-// From a light sample, toward `out`, where `material` is that at the hit. Zero on specular materials.
-dvec3 sampled_light(const World& world, const Material& material, const Hit& hit, const dvec3& out,
-                    double choice, dvec2 uv);
+// Where a path meets a surface of `material`: the light of one light sample that leaves toward `out`, and the
+// way on, if any. Draws two single numbers and two pairs.
+struct Bounce {
+  dvec3 light{0.0};  // zero on specular materials
+  std::optional<ScatterSample> scattered;
+};
+Bounce bounce(const World& world, const Material& material, const Hit& hit, const dvec3& out,
+              Sampler& sampler);
 
 // From emission at `hit`, or from the background on a miss, along `ray`. `scattered` is how the ray came
 // about; null for rays that no light sample competes with, such as a camera's.
