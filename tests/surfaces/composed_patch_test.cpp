@@ -158,7 +158,7 @@ TEST_CASE("what cannot be composed is refused where it stands", "[surfaces][comp
   refused(composed(R"({"type": "sphere_cup"})", unit_square), "did you mean \"sphere_cap\"?");
   refused(composed(R"({"type": "sphere_cap", "z_maxx": 0})", unit_square), "did you mean \"z_max\"?");
   refused(composed(R"({"type": "sphere_cap", "z_max": 1})", unit_square),
-          "\"z_max\" must be a number in (-1, 1)");
+          "\"z_max\" must be a number in (-1, 0.999999999]");
   refused(composed(cap, unit_square, 1), "\"patch\" must be an integer in [0, 0], found 1");
   refused(composed(cap, R"({"degree": [1, 1], "net": [[[0, 0], [0, 1]], [[1, 0], [1.25, 1]]]})"),
           "\"domain\" reaches (1.25, 1), outside the patch's parameters, [0, 1] x [0, 1]");
