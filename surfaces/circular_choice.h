@@ -10,6 +10,10 @@ namespace rondure {
 
 inline constexpr long double degrees_per_radian = 57.295779513082320876798154814105L;
 
+// The holonomy's argument up to which a patch of the lower degree counts as existing: arcs may be given in
+// doubles, or to ten digits.
+inline constexpr long double closes = 1e-10L;
+
 // The image of the first candidate that is regular and has positive weights only, or else of the first that
 // is regular. Fails where none is.
 Surface best_image(const Params& params, const std::vector<Preimage>& candidates);

@@ -14,10 +14,6 @@
 namespace rondure {
 namespace {
 
-// The angles that the sides turn a spinor by, for which a patch of degree (2, 2) counts as existing: of what
-// is given in doubles, or to ten digits.
-constexpr long double closes = 1e-10L;
-
 std::string why_not_biquadratic(const SphericalQuad& quad) {
   // The holonomy's argument is half of what the angles exceed 360 degrees by, up to 720.
   const long double degrees = std::arg(holonomy(quad)) * 2 * degrees_per_radian;

@@ -13,9 +13,6 @@
 namespace rondure {
 namespace {
 
-// As for circular_quad.
-constexpr long double closes = 1e-10L;
-
 std::string why_not_quadratic(const SphericalTriangle& triangle) {
   const long double degrees = std::arg(holonomy(triangle)) * 2 * degrees_per_radian;
   if (std::abs(degrees) > 360 - 1e-6L)
