@@ -74,6 +74,14 @@ void CsvReader::fail(std::size_t column, const std::string& message) const {
   fail_at(column < starts_.size() ? starts_[column] : line_.size(), message);
 }
 
+std::size_t CsvReader::index(const std::vector<double>& row, std::size_t column, std::size_t count,
+                             const char* what) const {
+  const double x = row[column];
+  if (!(x >= 0.0) || !(x < static_cast<double>(count)) || x != std::floor(x))
+    fail(column, fmt::format("there is no {} {:g}: expected an index from 0 to {}", what, x, count - 1));
+  return static_cast<std::size_t>(x);
+}
+
 bool CsvReader::is_header() const {
   std::string_view rest = line_;
   for (std::size_t k = 0;; ++k) {

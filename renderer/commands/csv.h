@@ -21,6 +21,9 @@ class CsvReader {
 
   // The next row, of `columns` size; `present` of them stand in the file. False at the end.
   bool next(std::vector<double>& row, std::size_t& present);
+  // The number in `column` as an index below `count` of the things called `what`; refuses others.
+  std::size_t index(const std::vector<double>& row, std::size_t column, std::size_t count,
+                    const char* what) const;
   // Refuses the row last read. `column` is an index into the columns.
   [[noreturn]] void fail(std::size_t column, const std::string& message) const;
 

@@ -1,16 +1,18 @@
-// rondure eval: position, derivatives, normal and curvature at given parameters of a scene's patches.
+// rondure eval: position, derivatives, normal and curvature at given parameters of a scene's patches, or the
+// point in a given direction.
 
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
+#include "renderer/commands/eval_direction.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/scene/scene_reader.h"
 
@@ -19,26 +21,19 @@ namespace {
 
 struct EvalOptions {
   SceneOptions scene;
-  std::string at;
+  std::string at, directions;  // one of the two
   std::string output = "-";
 };
-
-// The number in `column` as an index below `count`.
-std::size_t read_index(const CsvReader& reader, const std::vector<double>& row, std::size_t column,
-                       std::size_t count, const char* what) {
-  const double x = row[column];
-  if (!(x >= 0.0) || !(x < static_cast<double>(count)) || x != std::floor(x))
-    reader.fail(column,
-                fmt::format("there is no {} {:g}: expected an index from 0 to {}", what, x, count - 1));
-  return static_cast<std::size_t>(x);
-}
 
 void append(std::string& out, const dvec3& p) {
   fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z);
 }
 
 void eval(const Registry& registry, const EvalOptions& options) {
+  if (options.at.empty() && options.directions.empty())
+    throw std::runtime_error("--at or --direction is required; see rondure eval --help");
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  if (!options.directions.empty()) return eval_directions(scene, options.directions, options.output);
   CsvReader reader(options.at, {"surface", "patch", "u", "v"}, 4);
   TextOutput output(options.output);
   output.write(
@@ -47,12 +42,12 @@ void eval(const Registry& registry, const EvalOptions& options) {
   std::vector<double> row;
   std::size_t present = 0;
   while (reader.next(row, present)) {
-    const std::size_t object = read_index(reader, row, 0, scene.objects.size(), "surface");
+    const std::size_t object = reader.index(row, 0, scene.objects.size(), "surface");
     const Surface& surface = scene.objects[object].traced.surface;
     if (surface.patches.empty())
       reader.fail(0, fmt::format("surface {} ({}) is analytic: it has no patches to evaluate", object,
                                  scene.objects[object].type));
-    const std::size_t patch = read_index(reader, row, 1, surface.patches.size(), "patch");
+    const std::size_t patch = reader.index(row, 1, surface.patches.size(), "patch");
     const Net& net = surface.patches[patch];
     const double u = row[2], v = row[3];
     const bool triangle = std::holds_alternative<TriangleNet>(net);
@@ -77,7 +72,11 @@ void add_eval(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("eval", "Evaluate a scene's patches at given parameters");
   auto options = std::make_shared<EvalOptions>();
   add_scene_options(*command, options->scene);
-  command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input")->required();
+  CLI::Option* at = command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input");
+  command
+      ->add_option("--direction", options->directions,
+                   "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input")
+      ->excludes(at);
   command->add_option("-o,--output", options->output, "Table of values; - for standard output (the default)");
   run_when_chosen(*command, context, [&context, options] { eval(context.registry, *options); });
 }

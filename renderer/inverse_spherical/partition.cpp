@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "renderer/bezier/product.h"
-#include "renderer/bezier/triangle.h"
+#include "renderer/bezier/star_shaped.h"
 #include "renderer/bezier/triangle_keys.h"
 #include "renderer/inverse_spherical/spherical_triangle.h"
 
@@ -77,42 +75,6 @@ std::optional<std::string> corner_fault(const Directions& d) {
   return "the three corners lie on one great circle, and span no spherical triangle";
 }
 
-// det(u_a, u_b, u_c) / n^3, of degree 3 (n - 1).
-TrianglePolynomial<double> jacobian(int n, const std::vector<dvec3>& u) {
-  TrianglePolynomial<dvec3> a(n - 1), b(n - 1), c(n - 1);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n - i; ++j) {
-      a.at(i, j) = u[static_cast<std::size_t>(triangle_index(n, i + 1, j))];
-      b.at(i, j) = u[static_cast<std::size_t>(triangle_index(n, i, j + 1))];
-      c.at(i, j) = u[static_cast<std::size_t>(triangle_index(n, i, j))];
-    }
-  }
-  const auto cross = [](const dvec3& x, const dvec3& y) { return glm::cross(x, y); };
-  const auto dot = [](const dvec3& x, const dvec3& y) { return glm::dot(x, y); };
-  return multiply(a, multiply(b, c, cross), dot);
-}
-
-// A piece of the domain: the net of u over it, and its corners' first two barycentric coordinates.
-struct Piece {
-  std::vector<dvec3> u;
-  std::array<dvec2, 3> corners;
-};
-
-std::array<Piece, 4> quarter(const Piece& p, int n) {
-  std::array<Piece, 4> out;
-  for (Piece& q : out) q.u.resize(p.u.size());
-  triangle_quarter(p.u.data(), n, out[0].u.data(), out[1].u.data(), out[2].u.data(), out[3].u.data());
-  const dvec2 a = p.corners[0], b = p.corners[1], c = p.corners[2];
-  const dvec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ac = 0.5 * (a + c);
-  out[0].corners = {a, ab, ac};
-  out[1].corners = {ab, b, bc};
-  out[2].corners = {ac, bc, c};
-  out[3].corners = {bc, ac, ab};
-  return out;
-}
-
-constexpr int most_pieces = 4096;
-
 }  // namespace
 
 std::optional<std::string> partition_fault(int n, const std::vector<dvec3>& u) {
@@ -135,39 +97,19 @@ std::optional<std::string> fold_fault(int n, const std::vector<dvec3>& u) {
   const Directions d(n, u);
   if (auto fault = corner_fault(d)) return fault;
   if (auto fault = side_fault(d)) return fault;
-  const double sign = std::copysign(1.0, d.turn({n, 0}, {0, n}, {0, 0}));
-  double size = 0.0;
-  for (const dvec3& p : u) size = std::max(size, glm::length(p));
-  std::vector<dvec3> scaled;
-  for (const dvec3& p : u) scaled.push_back(sign * p / size);
-  std::vector<Piece> stack{{scaled, {dvec2(1, 0), dvec2(0, 1), dvec2(0, 0)}}};
-  for (int visited = 0; !stack.empty(); ++visited) {
-    const Piece piece = stack.back();
-    stack.pop_back();
-    const TrianglePolynomial<double> det = jacobian(n, piece.u);
-    // The directions of the pieces' own nets shrink by halves; det relative to the greatest of them is what
-    // subdivision leaves alone.
-    double largest = 0.0;
-    for (const double x : det.coefficients) largest = std::max(largest, std::abs(x));
-    const double corners[3] = {det.at(det.n, 0), det.at(0, det.n), det.at(0, 0)};
-    for (int k = 0; k < 3; ++k) {
-      if (corners[k] > flat * largest) continue;
-      const dvec2 at = piece.corners[static_cast<std::size_t>(k)];
-      return fmt::format(
-          "the projection domain folds over, seen from the origin, near the barycentric point ({:.4g}, "
-          "{:.4g}, "
-          "{:.4g})",
-          at.x, at.y, 1.0 - at.x - at.y);
-    }
-    if (*std::min_element(det.coefficients.begin(), det.coefficients.end()) > 0.0) continue;
-    if (visited >= most_pieces) {
-      return fmt::format(
-          "it cannot be certified that the projection domain does not fold near ({:.4g}, {:.4g})",
-          piece.corners[0].x, piece.corners[0].y);
-    }
-    for (Piece& q : quarter(piece, n)) stack.push_back(std::move(q));
+  TriangleNet domain(n);
+  for (std::size_t k = 0; k < u.size(); ++k) domain.points[k] = dvec4(u[k], 1.0);
+  const std::optional<Fold> fold = fold_seen_from_origin(domain);
+  if (!fold) return std::nullopt;
+  const dvec2 at = fold->at;
+  if (!fold->certain) {
+    return fmt::format(
+        "it cannot be certified that the projection domain does not fold near ({:.4g}, {:.4g})", at.x, at.y);
   }
-  return std::nullopt;
+  return fmt::format(
+      "the projection domain folds over, seen from the origin, near the barycentric point ({:.4g}, {:.4g}, "
+      "{:.4g})",
+      at.x, at.y, 1.0 - at.x - at.y);
 }
 
 }  // namespace rondure

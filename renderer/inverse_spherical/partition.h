@@ -13,8 +13,7 @@ namespace rondure {
 std::optional<std::string> partition_fault(int n, const std::vector<dvec3>& u);
 
 // Why u(tau) / |u(tau)| is not one-to-one on the triangle, in words; empty when it is certified to be: the
-// Jacobian det(u_a, u_b, u_c), a Bernstein polynomial of degree 3 (n - 1), has coefficients of one sign after
-// finitely many subdivisions, and the sides are as in partition_fault.
+// Jacobian det(u_a, u_b, u_c) keeps one sign (bezier/star_shaped.h), and the sides are as in partition_fault.
 std::optional<std::string> fold_fault(int n, const std::vector<dvec3>& u);
 
 }  // namespace rondure
