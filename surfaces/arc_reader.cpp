@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <string>
+
+#include "surfaces/read_numbers.h"
 
 namespace rondure {
 namespace {
@@ -17,19 +18,6 @@ constexpr long double least_distance = 1e-6L;
 // What is given in doubles, or to fewer digits: a plane counts as passing through a corner from this
 // distance.
 constexpr long double plane_tolerance = 1e-9L;
-
-template <std::size_t N>
-std::array<double, N> read_numbers(const Params& params, const Value& value, const std::string& subject,
-                                   const char* form) {
-  std::array<double, N> numbers{};
-  bool good = value.kind == Kind::array && value.items.size() == N;
-  for (std::size_t k = 0; good && k < N; ++k) {
-    numbers[k] = value.items[k].number;
-    good = value.items[k].kind == Kind::number && std::isfinite(numbers[k]);
-  }
-  if (!good) params.fail(value, fmt::format("{} must be {}", subject, form));
-  return numbers;
-}
 
 const char* number_word(std::size_t count) { return count == 3 ? "three" : "four"; }
 

@@ -10,6 +10,7 @@ void register_bezier(Registry& registry);
 void register_circular_quad(Registry& registry);
 void register_circular_triangle(Registry& registry);
 void register_composed_patch(Registry& registry);
+void register_curve(Registry& registry);
 void register_projected_net(Registry& registry);
 void register_quadric_patch(Registry& registry);
 void register_iss(Registry& registry);

@@ -8,41 +8,15 @@
 #include <utility>
 
 #include "renderer/api/registry.h"
+#include "renderer/projective/cube_faces.h"
 #include "renderer/projective/planar_patch.h"
 #include "renderer/projective/shared_points.h"
-#include "surfaces/cube_face_2_4.h"
 #include "surfaces/families.h"
 #include "surfaces/planar_weights.h"
 #include "surfaces/polyhedral_tiles.h"
 
 namespace rondure {
 namespace {
-
-// A signed permutation of the axes: coordinate c of the image is sign[c] times coordinate from[c].
-struct AxisRotation {
-  int from[3];
-  double sign[3];
-};
-
-// Turns of the south face (about -z) to the faces about -z, +z, +x, -x, +y, -y. All have determinant 1.
-constexpr AxisRotation face_rotations[6] = {{{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}},
-                                            {{2, 1, 0}, {-1.0, 1.0, 1.0}}, {{2, 1, 0}, {1.0, 1.0, -1.0}},
-                                            {{0, 2, 1}, {1.0, -1.0, 1.0}}, {{0, 2, 1}, {1.0, 1.0, -1.0}}};
-
-TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
-  TensorNet out = net;
-  for (std::size_t k = 0; k < out.points.size(); ++k) {
-    // Adding 0 makes every zero positive, so that equal control points are equal in their bits.
-    for (int c = 0; c < 3; ++c) out.points[k][c] = turn.sign[c] * net.points[k][turn.from[c]] + 0.0;
-  }
-  return out;
-}
-
-std::vector<Net> cube_of(const TensorNet& south) {
-  std::vector<Net> patches;
-  for (const AxisRotation& turn : face_rotations) patches.push_back(rotated(south, turn));
-  return patches;
-}
 
 std::vector<Net> hemispheres(double middle) {
   const TensorNet south = sphere_patch(disk(2, middle), 1);

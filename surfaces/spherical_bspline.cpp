@@ -10,6 +10,7 @@
 #include "renderer/projective/bspline.h"
 #include "renderer/projective/shared_points.h"
 #include "surfaces/families.h"
+#include "surfaces/spline_reader.h"
 
 namespace rondure {
 namespace {
@@ -17,18 +18,6 @@ namespace {
 using Kind = Value::Kind;
 
 constexpr std::int64_t highest_degree = max_degree / 2;
-
-lvec4 read_point(const Params& params, const Value& value) {
-  bool good = value.kind == Kind::array && value.items.size() == 4;
-  lvec4 p(0);
-  for (int c = 0; good && c < 4; ++c) {
-    const Value& item = value.items[static_cast<std::size_t>(c)];
-    good = item.kind == Kind::number && std::isfinite(item.number);
-    p[c] = item.number;
-  }
-  if (!good) params.fail(value, "a control point is an array of four numbers, [p0, p1, p2, p3]");
-  return p;
-}
 
 void read_net(Params& params, BSplineSurface& surface) {
   const Value* rows = params.raw("net");
@@ -40,28 +29,8 @@ void read_net(Params& params, BSplineSurface& surface) {
         (surface.columns != 0 && row.items.size() != surface.columns))
       params.fail(row, "the rows of \"net\" must be arrays of equally many control points");
     surface.columns = row.items.size();
-    for (const Value& point : row.items) surface.points.push_back(read_point(params, point));
+    for (const Value& point : row.items) surface.points.push_back(read_preimage_point(params, point));
   }
-}
-
-// Equidistant, the curve starting at the first and ending at the last point.
-std::vector<long double> clamped_knots(int degree, std::size_t points) {
-  std::vector<long double> knots;
-  const auto d = static_cast<std::size_t>(degree);
-  for (std::size_t k = 0; k < points + d + 1; ++k)
-    knots.push_back(static_cast<long double>(std::min(std::max(k, d), points) - d));
-  return knots;
-}
-
-std::vector<long double> read_knots(const Params& params, const Value& list) {
-  std::vector<long double> knots;
-  if (list.kind != Kind::array) params.fail(list, "knots are an array of numbers");
-  for (const Value& item : list.items) {
-    if (item.kind != Kind::number || !std::isfinite(item.number))
-      params.fail(item, "a knot must be a finite number");
-    knots.push_back(item.number);
-  }
-  return knots;
 }
 
 BSplineSurface read_surface(Params& params) {

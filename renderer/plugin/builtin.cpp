@@ -11,6 +11,7 @@ void register_builtins(Registry& registry) {
       register_circular_quad,
       register_circular_triangle,
       register_composed_patch,
+      register_curve,
       register_iss,
       register_projected_net,
       register_quadric_patch,

@@ -60,6 +60,7 @@ Json scene_with(const std::string& kind, const std::string& type, Json::json_poi
     scene[place]["corners"] = Json::parse("[[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]]");
   if (type == "circular_triangle") scene[place]["corners"] = Json::parse("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
   if (type == "quadric_patch") scene[place]["surface"] = Json::parse(R"({ "type": "sphere_tiling" })");
+  if (type == "curve") scene[place]["circle"] = Json::parse("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
   if (type == "spherical_bspline") {
     scene[place]["net"] = Json::parse(
         "[[[1,0,0,0],[1,0,1,0],[1,0,2,0]],[[1,1,0,0],[1,1,1,0],[1,1,2,0]],[[1,2,0,0],[1,2,1,0],[1,2,2,0]]]");

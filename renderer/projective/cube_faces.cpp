@@ -1,6 +1,29 @@
-#include "surfaces/cube_face_2_4.h"
+#include "renderer/projective/cube_faces.h"
 
 namespace rondure {
+namespace {
+
+// Turns of the south face. All have determinant 1.
+constexpr AxisRotation face_rotations[6] = {{{0, 1, 2}, {1.0, 1.0, 1.0}},  {{0, 1, 2}, {1.0, -1.0, -1.0}},
+                                            {{2, 1, 0}, {-1.0, 1.0, 1.0}}, {{2, 1, 0}, {1.0, 1.0, -1.0}},
+                                            {{0, 2, 1}, {1.0, -1.0, 1.0}}, {{0, 2, 1}, {1.0, 1.0, -1.0}}};
+
+}  // namespace
+
+TensorNet rotated(const TensorNet& net, const AxisRotation& turn) {
+  TensorNet out = net;
+  for (std::size_t k = 0; k < out.points.size(); ++k) {
+    // Adding 0 makes every zero positive, so that equal control points are equal in their bits.
+    for (int c = 0; c < 3; ++c) out.points[k][c] = turn.sign[c] * net.points[k][turn.from[c]] + 0.0;
+  }
+  return out;
+}
+
+std::vector<Net> cube_of(const TensorNet& south) {
+  std::vector<Net> patches;
+  for (const AxisRotation& turn : face_rotations) patches.emplace_back(rotated(south, turn));
+  return patches;
+}
 
 TensorNet cube_face_2_4() {
   const long double r2 = 1.414213562373095048801688724209698079L;
