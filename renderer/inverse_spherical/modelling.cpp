@@ -1,9 +1,13 @@
 #include "renderer/inverse_spherical/modelling.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/elevate.h"
 #include "renderer/bezier/triangle.h"
+#include "renderer/inverse_spherical/spherical_triangle.h"
 
 namespace rondure {
 namespace {
@@ -68,6 +72,15 @@ std::vector<double> InverseCircularCurve::coefficients() const {
   return c;
 }
 
+std::vector<dvec4> InverseCircularCurve::control_points() const {
+  std::vector<dvec4> points;
+  for (int k = 0; k <= n; ++k) {
+    const double t = static_cast<double>(k) / n;
+    points.emplace_back((1.0 - t) * from + t * to, weights[points.size()]);
+  }
+  return points;
+}
+
 InverseCircularCurve along_arc(const PlanarIss& s, dvec2 from, dvec2 to) {
   // The side from the first corner to the second of a part whose third corner does not matter.
   const PlanarIss part = restricted(s, {from, to, from});
@@ -76,6 +89,40 @@ InverseCircularCurve along_arc(const PlanarIss& s, dvec2 from, dvec2 to) {
     curve.weights.push_back(part.weights[static_cast<std::size_t>(triangle_index(s.n, s.n - k, k))]);
   }
   return curve;
+}
+
+std::optional<InverseCircularCurve> along_arc(const PlanarIss& s, const dvec3& from, const dvec3& to) {
+  // Over the chord between the unit directions, the coordinates in the corners are linear. Within the
+  // rounding of their determinants a coordinate is 0.
+  const dvec3 ends[2] = {glm::normalize(from), glm::normalize(to)};
+  const auto& c = s.corners;
+  const double det = orientation(c[0], c[1], c[2]);
+  dvec3 b[2];
+  for (int e = 0; e < 2; ++e) {
+    for (int i = 0; i < 3; ++i) {
+      const dvec3 &second = c[static_cast<std::size_t>((i + 1) % 3)],
+                  &third = c[static_cast<std::size_t>((i + 2) % 3)];
+      b[e][i] = orientation(ends[e], second, third) / det;
+      const double rounding = 8.0 * 0x1p-52 * glm::length(second) * glm::length(third) / std::abs(det);
+      if (std::abs(b[e][i]) <= rounding) b[e][i] = 0.0;
+    }
+  }
+  double enter = 0.0, leave = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const double low = b[0][i], high = b[1][i];
+    if (low < 0.0 && high < 0.0) return std::nullopt;
+    if (low < 0.0) enter = std::max(enter, low / (low - high));
+    if (high < 0.0) leave = std::min(leave, low / (low - high));
+  }
+  // What is shorter than this is a point, seen through rounding.
+  if (!(leave - enter > 0x1p-40)) return std::nullopt;
+  dvec2 at[2];
+  for (int e = 0; e < 2; ++e) {
+    const double t = e == 0 ? enter : leave;
+    const dvec3 here = glm::max((1.0 - t) * b[0] + t * b[1], dvec3(0.0));
+    at[e] = dvec2(here) / (here.x + here.y + here.z);
+  }
+  return along_arc(s, at[0], at[1]);
 }
 
 }  // namespace rondure

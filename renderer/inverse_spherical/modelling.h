@@ -29,10 +29,16 @@ struct InverseCircularCurve {
   std::vector<double> weights;
 
   dvec3 point(double t) const;
-  std::vector<double> coefficients() const;  // c_k = w_k / |u_k|
+  std::vector<double> coefficients() const;   // c_k = w_k / |u_k|
+  std::vector<dvec4> control_points() const;  // (u_k, w_k): the rational Bezier curve that it is
 };
 
 // The surface along the great-circle arc between the directions of two points of its domain, a chord there.
 InverseCircularCurve along_arc(const PlanarIss& s, dvec2 from, dvec2 to);
+
+// The surface over its part of the shorter great-circle arc between two directions, which must not be
+// parallel or opposite. Empty where the arc passes by the spherical triangle or only touches it. An arc along
+// a side is the side's, to some units of rounding.
+std::optional<InverseCircularCurve> along_arc(const PlanarIss& s, const dvec3& from, const dvec3& to);
 
 }  // namespace rondure

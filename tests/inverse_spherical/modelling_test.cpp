@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/inverse_spherical/evaluate.h"
+#include "renderer/inverse_spherical/octant_model.h"
 #include "tests/catch.h"
 #include "tests/inverse_spherical/random_iss.h"
 #include "tests/worst_case.h"
@@ -121,6 +122,68 @@ TEST_CASE("along a great-circle arc the surface is an inverse circular curve", "
   INFO(points.text());
   INFO(plane.text());
   CHECK(points.failures() + plane.failures() + control.failures() == 0);
+}
+
+TEST_CASE("an arc between two directions is cut to each patch that it crosses", "[iss]") {
+  // A closed model: the pieces of an arc fill it, end to end, on the surface.
+  std::array<std::vector<double>, 8> interior;
+  interior.fill(std::vector<double>(15, 0.8));
+  interior[3].assign(15, 0.3);
+  const std::array<PlanarIss, 8> model = octant_model(4, interior);
+  NetMaker make(44);
+  WorstCase filled, points, joints;
+  for (int trial = 0; trial < 100; ++trial) {
+    dvec3 ends[2];
+    for (dvec3& d : ends) d = dvec3(make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1));
+    if (trial % 10 == 0) ends[0].z = ends[1].z = 0.0;  // along sides, which two patches share
+    if (trial % 10 == 1) ends[0] = {0, 0, 1};          // from a corner
+    const auto say = [&] { return fmt::format("trial {}", trial); };
+    double angle = 0.0;
+    std::vector<dvec3> tips;
+    for (const PlanarIss& s : model) {
+      const std::optional<InverseCircularCurve> curve = along_arc(s, ends[0], ends[1]);
+      if (!curve) continue;
+      CHECK(curve->n == 4);
+      const auto bend = [](const dvec3& a, const dvec3& b) {
+        return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+      };
+      angle += bend(curve->from, curve->to);
+      for (int k = 0; k <= 4; ++k) {
+        const dvec3 p = curve->point(k / 4.0);
+        const std::optional<double> r = radius_towards(s, p);
+        points.add(r ? std::abs(*r / glm::length(p) - 1.0) : 1.0, 12.5 * 24.0 * 5.0 * eps, say);
+        // On the arc: in its plane, and between its ends.
+        const double beyond = bend(ends[0], p) + bend(p, ends[1]) - bend(ends[0], ends[1]);
+        points.add(std::abs(beyond), 1e-7, say);
+      }
+      for (const double t : {0.0, 1.0}) tips.push_back(curve->point(t));
+    }
+    const double whole = std::atan2(glm::length(glm::cross(ends[0], ends[1])), glm::dot(ends[0], ends[1]));
+    filled.add(std::abs(angle / whole - (trial % 10 == 0 ? 2.0 : 1.0)), 1e-13 / std::min(whole, 1.0), say);
+    // All tips but the arc's own two lie on each other in pairs; along sides everything comes twice.
+    int alone = 0;
+    for (std::size_t a = 0; a < tips.size(); ++a) {
+      int near = 0;
+      for (std::size_t b = 0; b < tips.size(); ++b) near += a != b && glm::distance(tips[a], tips[b]) < 1e-12;
+      alone += near == 0;
+    }
+    joints.add(std::abs(alone - (trial % 10 == 0 ? 0 : 2)), 0.5, say);
+  }
+  INFO("filled: " << filled.text());
+  INFO("points: " << points.text());
+  INFO("joints: " << joints.text());
+  CHECK(filled.failures() + points.failures() + joints.failures() == 0);
+
+  const PlanarIss& s = model[0];
+  CHECK_FALSE(along_arc(s, dvec3(-1, -1, 0.5), dvec3(-1, 0, 1)).has_value());
+  CHECK_FALSE(along_arc(s, dvec3(0, 0, 1), dvec3(-1, -1, 1)).has_value());      // touches a corner
+  CHECK_FALSE(along_arc(s, dvec3(-1, -1, -1), dvec3(-1, -2, -1)).has_value());  // on the other side
+  // The curve's control points are those of a rational curve: the same point from both.
+  const InverseCircularCurve curve = *along_arc(s, dvec3(1, 2, 0.5), dvec3(0.3, 0.1, 4));
+  dvec4 sum(0.0);
+  const std::vector<dvec4> control = curve.control_points();
+  for (std::size_t k = 0; k < 5; ++k) sum += std::array<double, 5>{1, 4, 6, 4, 1}[k] / 16.0 * control[k];
+  CHECK(glm::distance(dvec3(sum) / sum.w, curve.point(0.5)) < 4.0 * eps);
 }
 
 TEST_CASE("a part of a surface on a domain that is not planar is none (Remark 7.1)", "[iss]") {
