@@ -11,6 +11,7 @@
 #include "renderer/inverse_spherical/closed.h"
 #include "renderer/inverse_spherical/spherical_triangle.h"
 #include "surfaces/families.h"
+#include "surfaces/iss_arcs.h"
 #include "surfaces/iss_patches.h"
 #include "surfaces/iss_show.h"
 
@@ -36,6 +37,7 @@ std::vector<std::string> read_show(Params& params) {
   static const std::vector<std::string> known = {"surface", "control_surface", "control_net",
                                                  "spherical_triangle", "domain"};
   const Value* list = params.raw("show");
+  if (!list && params.has("arcs")) return {};
   if (!list) return {"surface"};
   if (list->kind != Value::Kind::array || list->items.empty()) {
     params.fail(*list, "\"show\" is an array of names, at least one");
@@ -72,7 +74,7 @@ Surface build(Params& params) {
   std::vector<TriangleNet> nets;
   for (const IssPatch& patch : patches) nets.push_back(outward(net_of(patch)));
   Surface surface;
-  surface.closed = show.size() == 1 && show[0] == "surface" && closes_up(nets);
+  surface.closed = show.size() == 1 && show[0] == "surface" && !params.has("arcs") && closes_up(nets);
   for (const std::string& name : show) {
     if (name == "surface") {
       add_surface(nets, form, surface.patches);
@@ -80,7 +82,12 @@ Surface build(Params& params) {
     }
     for (const IssPatch& patch : patches) add_iss_part(part_named(name), patch, wire, surface.patches);
   }
-  if (surface.patches.empty()) params.fail("show", "there is nothing to show: no patch has a planar domain");
+  add_iss_arcs(params, patches, wire, surface.patches);
+  if (surface.patches.empty()) {
+    params.fail(params.has("show") ? "show" : "arcs",
+                params.has("show") ? "there is nothing to show: no patch has a planar domain"
+                                   : "there is nothing to show: the list is empty");
+  }
   return surface;
 }
 
@@ -127,6 +134,10 @@ void register_iss(Registry& registry) {
         "the patches, the flat triangles between control points, these triangles' edges, the domain's sides "
         "on "
         "the unit sphere, those of the planar projection domain"},
+       {"arcs", "array of {\"from\": [x, y, z], \"to\": [x, y, z]}", "none",
+        "directions: over the shorter great-circle arc between them the surface is an inverse circular "
+        "curve, "
+        "drawn as a wire; alone, unless \"show\" is given too"},
        {"wire", "number > 0", "0.01", "radius of what is drawn as wires"}},
       build});
 }

@@ -4,8 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/surfaces/build_family.h"
+#include "tests/worst_case.h"
 
 namespace rondure {
 namespace {
@@ -85,6 +87,42 @@ TEST_CASE("what an iss shows", "[iss]") {
   }
 }
 
+TEST_CASE("an iss is drawn over great-circle arcs", "[iss]") {
+  const auto patches = [](const std::string& rest) { return build_family(iss(rest)).patches; };
+  const std::string circle =
+      R"("arcs": [{"from": [1,0,0.2], "to": [-1,1,0]}, {"from": [-1,1,0], "to": [0,-1,-0.3]}])";
+  const std::string model =
+      R"("octants": {"degree": 3, "interior": [0.25, 1.75, 1.75, 0.25, 1.75, 0.25, 0.25, 1.75]})";
+  const std::vector<Net> wires = patches(model + ", \"wire\": 0.02, " + circle);
+  CHECK(patches(model + ", \"show\": [\"surface\"], " + circle).size() > 8 + 6);
+  CHECK_FALSE(build_family(iss(model + ", \"show\": [\"surface\"], " + circle)).closed);
+  // Rays along an arc's directions pass the surface in the middle of the wire: in and out at distances of the
+  // wire's radius, over the cosine of the angle at which the ray meets it.
+  Surface drawn, surface = build_family(iss(model));
+  drawn.patches = wires;
+  const Tracer wire({{drawn, Solver::newton}}), whole({{surface, Solver::newton}});
+  WorstCase worst;
+  const dvec3 from = glm::normalize(dvec3(1, 0, 0.2)), to = glm::normalize(dvec3(-1, 1, 0));
+  const dvec3 normal = glm::normalize(glm::cross(from, to));
+  for (int k = 1; k < 40; ++k) {
+    const double t = k / 40.0;
+    const dvec3 d = glm::normalize((1.0 - t) * from + t * to);
+    const std::vector<Hit> hits = wire.all({dvec3(0.0), d});
+    const std::vector<Hit> middle = whole.all({dvec3(0.0), d});
+    REQUIRE(middle.size() == 1);
+    REQUIRE(hits.size() >= 2);
+    // The curve's slope against the direction, from the surface's normal: in the arc's plane.
+    const dvec3 across = glm::normalize(middle[0].normal - glm::dot(middle[0].normal, normal) * normal);
+    const double expected = 0.02 / glm::dot(across, d);
+    // The curve bends by up to a third of the tube's radius over its width; that enters squared.
+    for (const Hit* hit : {&hits.front(), &hits.back()})
+      worst.add(std::fabs(std::fabs(hit->t - middle[0].t) / expected - 1.0), 0.05,
+                [&] { return fmt::format("{} of the arc", t); });
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+}
+
 TEST_CASE("iss says what is wrong", "[iss]") {
   const std::pair<const char*, const char*> cases[] = {
       {R"("vertices": [[1,0,0],[0,1,0],[1,1,0]])", "lie on one great circle"},
@@ -149,6 +187,11 @@ TEST_CASE("iss says what is wrong", "[iss]") {
       {R"("form": "quads")", "\"form\" must be one of"},
       {R"("show": ["control surface"])", "did you mean \"control_surface\"?"},
       {R"("show": ["domain", "domain"])", "listed twice"},
+      {R"("arcs": [{"from": [1,1,1], "to": [2,2,2]}])", "neither parallel nor opposite"},
+      {R"("arcs": [{"from": [1,1,1], "to": [-1,-1,-1]}])", "neither parallel nor opposite"},
+      {R"("arcs": [{"from": [-1,1,1], "to": [-1,0,0]}])", "the arc passes by every patch"},
+      {R"("patches": [{"sphere": [0,1,2]}], "arcs": [{"from": [1,1,2], "to": [1,0,0]}])", "Remark 7.1"},
+      {R"("arcs": [])", "there is nothing to show"},
       {R"("wire": 0)", "\"wire\" must be a number greater than 0"},
   };
   for (const auto& [object, message] : cases) {
