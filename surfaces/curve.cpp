@@ -20,6 +20,17 @@ bool is_smooth(const dvec3& before, const dvec3& after) {
   return glm::dot(before, after) > 0.0 && glm::length(glm::cross(before, after)) < tube_accuracy;
 }
 
+// The control polygon; of the tube's own patches there is nothing to see.
+void add_guides(const std::vector<dvec4>& polygon, Surface& surface) {
+  for (const char* part : {"boundary", "control_surface", "isolines"}) surface.guides[part];
+  std::vector<Guide>& legs = surface.guides["net"];
+  constexpr double point_balls = 2.0;
+  for (std::size_t k = 0; k + 1 < polygon.size(); ++k) {
+    const dvec4 &from = polygon[k], &to = polygon[k + 1];
+    if (from.w != 0.0 && to.w != 0.0) legs.push_back({{from / from.w, to / to.w}, point_balls});
+  }
+}
+
 Surface build(Params& params) {
   const ReadCurve curve = read_curve(params);
   const double radius = params.number("tube", 0.02, Range::positive());
@@ -35,6 +46,7 @@ Surface build(Params& params) {
     pieces.push_back(piece);
   }
   if (tubes.empty()) params.fail("the curve is a single point");
+  add_guides(curve.polygon, surface);
   for (std::size_t k = 0; k < tubes.size(); ++k) {
     const std::size_t next = (k + 1) % tubes.size();
     const dvec3 end = curve_point(pieces[k], 1.0), start = curve_point(pieces[next], 0.0);

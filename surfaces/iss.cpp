@@ -1,9 +1,8 @@
 // Inverse spherical surfaces (Casciola and Morigi 2004): rational triangles that are single-valued over the
 // sphere.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "renderer/api/registry.h"
 #include "renderer/bezier/transform.h"
@@ -13,7 +12,6 @@
 #include "surfaces/families.h"
 #include "surfaces/iss_arcs.h"
 #include "surfaces/iss_patches.h"
-#include "surfaces/iss_show.h"
 
 namespace rondure {
 namespace {
@@ -33,61 +31,38 @@ void add_surface(const std::vector<TriangleNet>& nets, const std::string& form, 
   }
 }
 
-std::vector<std::string> read_show(Params& params) {
-  static const std::vector<std::string> known = {"surface", "control_surface", "control_net",
-                                                 "spherical_triangle", "domain"};
-  const Value* list = params.raw("show");
-  if (!list && params.has("arcs")) return {};
-  if (!list) return {"surface"};
-  if (list->kind != Value::Kind::array || list->items.empty()) {
-    params.fail(*list, "\"show\" is an array of names, at least one");
+// The sides of the domain on the unit sphere.
+void add_spherical_triangle(const TriangleNet& net, std::vector<Guide>& out) {
+  const dvec3 corners[3] = {dvec3(net.at(net.n, 0)), dvec3(net.at(0, net.n)), dvec3(net.at(0, 0))};
+  for (int k = 0; k < 3; ++k) {
+    const dvec3 a = glm::normalize(corners[k]), b = glm::normalize(corners[(k + 1) % 3]);
+    const double half_cosine = 0.5 * glm::length(a + b);
+    out.push_back({{dvec4(a, 1.0), dvec4((a + b) / (2.0 * half_cosine), half_cosine), dvec4(b, 1.0)}});
   }
-  std::vector<std::string> names;
-  for (const Value& item : list->items) {
-    const bool text = item.kind == Value::Kind::string;
-    if (!text || std::find(known.begin(), known.end(), item.string) == known.end()) {
-      const std::string near = text ? nearest_name(item.string, known) : "";
-      params.fail(item, fmt::format("\"show\" names {}{}", fmt::join(known, ", "),
-                                    near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-    }
-    if (std::find(names.begin(), names.end(), item.string) != names.end()) {
-      params.fail(item, fmt::format("\"{}\" is listed twice", item.string));
-    }
-    names.push_back(item.string);
-  }
-  return names;
 }
 
-IssPart part_named(const std::string& name) {
-  return name == "control_surface"      ? IssPart::control_surface
-         : name == "control_net"        ? IssPart::control_net
-         : name == "spherical_triangle" ? IssPart::spherical_triangle
-                                        : IssPart::domain;
+// The sides of the planar projection domain.
+void add_domain(const TriangleNet& net, std::vector<Guide>& out) {
+  const dvec3 corners[3] = {dvec3(net.at(net.n, 0)), dvec3(net.at(0, net.n)), dvec3(net.at(0, 0))};
+  for (int k = 0; k < 3; ++k) out.push_back({{dvec4(corners[k], 1.0), dvec4(corners[(k + 1) % 3], 1.0)}});
 }
 
 Surface build(Params& params) {
   std::vector<IssPatch> patches = read_iss_patches(params);
   modify_iss_patches(params, patches);
   const std::string form = params.choice("form", {"triangles", "degenerate", "quadrilaterals"}, "triangles");
-  const std::vector<std::string> show = read_show(params);
-  const double wire = params.number("wire", 0.01, Range::positive());
   std::vector<TriangleNet> nets;
   for (const IssPatch& patch : patches) nets.push_back(outward(net_of(patch)));
   Surface surface;
-  surface.closed = show.size() == 1 && show[0] == "surface" && !params.has("arcs") && closes_up(nets);
-  for (const std::string& name : show) {
-    if (name == "surface") {
-      add_surface(nets, form, surface.patches);
-      continue;
-    }
-    for (const IssPatch& patch : patches) add_iss_part(part_named(name), patch, wire, surface.patches);
+  surface.closed = closes_up(nets);
+  add_surface(nets, form, surface.patches);
+  // There, though perhaps empty, so that they can be named.
+  std::vector<Guide>&triangles = surface.guides["spherical_triangle"], &domains = surface.guides["domain"];
+  for (const IssPatch& patch : patches) {
+    add_spherical_triangle(net_of(patch), triangles);
+    if (std::holds_alternative<PlanarIss>(patch)) add_domain(net_of(patch), domains);
   }
-  add_iss_arcs(params, patches, wire, surface.patches);
-  if (surface.patches.empty()) {
-    params.fail(params.has("show") ? "show" : "arcs",
-                params.has("show") ? "there is nothing to show: no patch has a planar domain"
-                                   : "there is nothing to show: the list is empty");
-  }
+  surface.guides["arcs"] = read_iss_arcs(params, patches);
   return surface;
 }
 
@@ -128,17 +103,9 @@ void register_iss(Registry& registry) {
        {"form", "\"triangles\", \"degenerate\" or \"quadrilaterals\"", "\"triangles\"",
         "as triangular patches, each as one tensor patch with a collapsed side, or each as three regular "
         "ones"},
-       {"show",
-        "array of \"surface\", \"control_surface\", \"control_net\", \"spherical_triangle\", \"domain\"",
-        "[\"surface\"]",
-        "the patches, the flat triangles between control points, these triangles' edges, the domain's sides "
-        "on "
-        "the unit sphere, those of the planar projection domain"},
        {"arcs", "array of {\"from\": [x, y, z], \"to\": [x, y, z]}", "none",
         "directions: over the shorter great-circle arc between them the surface is an inverse circular "
-        "curve, "
-        "drawn as a wire; alone, unless \"show\" is given too"},
-       {"wire", "number > 0", "0.01", "radius of what is drawn as wires"}},
+        "curve, which \"arcs\" in \"show\" draws"}},
       build});
 }
 

@@ -6,7 +6,7 @@
 
 namespace rondure {
 
-// The curves of the surface over the arcs of "arcs", as tubes of radius `wire`. Nothing where there are none.
-void add_iss_arcs(Params& params, const std::vector<IssPatch>& patches, double wire, std::vector<Net>& out);
+// The curves of the surface over the arcs of "arcs". Nothing where there are none.
+std::vector<Guide> read_iss_arcs(Params& params, const std::vector<IssPatch>& patches);
 
 }  // namespace rondure

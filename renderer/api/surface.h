@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@
 
 namespace rondure {
 
+// A rational Bezier curve beside the patches that a scene may show as a wire.
+struct Guide {
+  std::vector<dvec4> curve;  // control points (w x, w y, w z, w)
+  double end_balls = 1.0;    // radius of the balls at its ends, in radii of the wire
+};
+
 // One surface in its own frame. Families build about the origin at unit size; the scene applies radius,
 // centre and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
 struct Surface {
@@ -18,6 +25,8 @@ struct Surface {
   dvec3 origin{0.0};               // world position of the frame's zero
   std::optional<dmat3> ellipsoid;  // set, and `patches` empty: the analytic image of the unit sphere under it
   bool closed = false;             // bounds a solid: every line meets it an even number of times
+  // What "show" may name beside the parts that every surface has, or in place of them.
+  std::map<std::string, std::vector<Guide>> guides;
 };
 
 // One documented parameter, for `rondure describe`. `type` is prose such as "number in (-1, 1)".

@@ -55,11 +55,4 @@ std::vector<TensorNet> circle_tube(const CircleArc& arc, double radius) {
   return nets;
 }
 
-std::vector<TensorNet> arc_tube(const dvec3& from, const dvec3& to, double radius) {
-  const dvec3 a = glm::normalize(from), normal = glm::cross(a, glm::normalize(to));
-  if (!(glm::length(normal) > 0.0)) return {};
-  const double angle = std::atan2(glm::length(normal), glm::dot(a, glm::normalize(to)));
-  return circle_tube({dvec3(0.0), a, glm::normalize(glm::cross(normal, a)), angle}, radius);
-}
-
 }  // namespace rondure

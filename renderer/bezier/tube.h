@@ -23,10 +23,6 @@ struct CircleArc {
 // of a circle or part of it, normals outward.
 std::vector<TensorNet> circle_tube(const CircleArc& arc, double radius);
 
-// The torus of this radius about the shorter great-circle arc between two directions, on the unit sphere.
-// None where the directions are parallel.
-std::vector<TensorNet> arc_tube(const dvec3& from, const dvec3& to, double radius);
-
 struct CurveTube {
   std::vector<TensorNet> nets;  // open at the curve's ends, normals outward
   std::vector<dvec3> cusps;     // where the curve has no tangent: a ball belongs there

@@ -6,11 +6,21 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
+#include "renderer/scene/show.h"
 #include "renderer/scene/transform_reader.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
 namespace {
+
+void transform_all(Surface& surface, const dmat4& map) {
+  for (Net& net : surface.patches) net = transformed(net, map);
+  for (auto& [part, guides] : surface.guides) {
+    for (Guide& guide : guides) {
+      for (dvec4& p : guide.curve) p = map * p;
+    }
+  }
+}
 
 void place_affine(Surface& surface, const Placement& placement) {
   const dmat3 map(placement.transform);
@@ -19,7 +29,7 @@ void place_affine(Surface& surface, const Placement& placement) {
       map * (placement.center + placement.radius * surface.origin) + dvec3(placement.transform[3]);
   if (linear == dmat3(1.0)) return;
   if (surface.ellipsoid) *surface.ellipsoid = linear * *surface.ellipsoid;
-  for (Net& net : surface.patches) net = transformed(net, dmat4(linear));
+  transform_all(surface, dmat4(linear));
 }
 
 void place_projective(Surface& surface, const Placement& placement) {
@@ -35,7 +45,7 @@ void place_projective(Surface& surface, const Placement& placement) {
     for (int j = 0; j < 4; ++j) map[j] -= dvec4(surface.origin * map[j].w, 0.0);
     map[3] = dvec4(0.0, 0.0, 0.0, map[3].w);
   }
-  for (Net& net : surface.patches) net = transformed(net, map);
+  transform_all(surface, map);
 }
 
 // Homogeneous points may change sign together: the surface is the same, and solvers want positive weights.
@@ -45,10 +55,11 @@ void make_corner_positive(Net& net) {
   for (dvec4& p : points) p = -p;
 }
 
-int read_material_name(Params& params, const std::map<std::string, int>& materials) {
-  const Value* value = params.raw("material");
-  if (!value) return default_material;
-  const std::string name = params.text("material");
+int read_material_name(Params& params, const char* key, int otherwise,
+                       const std::map<std::string, int>& materials) {
+  const Value* value = params.raw(key);
+  if (!value) return otherwise;
+  const std::string name = params.text(key);
   const auto found = materials.find(name);
   if (found != materials.end()) return found->second;
   std::vector<std::string> names;
@@ -67,8 +78,8 @@ void place(Surface& surface, const Placement& placement) {
   for (Net& net : surface.patches) make_corner_positive(net);
 }
 
-SceneObject read_object(Params& params, const Registry& registry,
-                        const std::map<std::string, int>& materials) {
+std::vector<SceneObject> read_object(Params& params, const Registry& registry,
+                                     const std::map<std::string, int>& materials) {
   SceneObject object;
   object.where = params.where();
   const SurfaceFamily& family = family_of(params, registry);
@@ -79,11 +90,13 @@ SceneObject read_object(Params& params, const Registry& registry,
   placement.center = params.vec3("center", placement.center);
   placement.radius = params.number("radius", placement.radius, Range::positive());
   placement.transform = read_transform(params);
-  object.material = read_material_name(params, materials);
+  object.material = read_material_name(params, "material", default_material, materials);
   object.traced.solver = params.choice("solver", {"newton", "clipping"}, "newton") == "clipping"
                              ? Solver::clipping
                              : Solver::newton;
   object.traced.surface = family.build(params);
+  const Show show = read_show(params, object.traced.surface);
+  const int wire_material = read_material_name(params, "wire_material", contrast_material, materials);
   params.finish();
   try {
     place(object.traced.surface, placement);
@@ -91,7 +104,20 @@ SceneObject read_object(Params& params, const Registry& registry,
     params.fail("transform", fmt::format("\"{}\": {}; take a family of patches, such as \"sphere_tiling\"",
                                          printable(object.type), error.what()));
   }
-  return object;
+  ShownParts parts = shown_parts(params, show, object.traced.surface);
+  std::vector<SceneObject> objects;
+  if (parts.surface) {
+    objects.push_back(object);
+    objects.back().traced.surface = std::move(*parts.surface);
+  }
+  if (parts.wires) {
+    object.traced.surface = std::move(*parts.wires);
+    if (parts.surface) object.name += ", wires";
+    // Alone, wires are the object; "material" is theirs too.
+    if (parts.surface || wire_material != contrast_material) object.material = wire_material;
+    objects.push_back(std::move(object));
+  }
+  return objects;
 }
 
 }  // namespace rondure

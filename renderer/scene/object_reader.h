@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "renderer/api/registry.h"
 #include "renderer/scene/scene.h"
@@ -21,11 +22,14 @@ struct Placement {
 // std::invalid_argument for a projective transform of an analytic surface.
 void place(Surface& surface, const Placement& placement);
 
-// Material of an object that names none: not an index.
+// Materials that are not an index: of an object that names none, and of wires that are to be seen on the
+// surface before them.
 inline constexpr int default_material = -1;
+inline constexpr int contrast_material = -2;
 
-// Reads and finishes the object. `materials` maps names to indices.
-SceneObject read_object(Params& params, const Registry& registry,
-                        const std::map<std::string, int>& materials);
+// Reads and finishes the object: what "show" names in one material, and after it the wires in theirs, if
+// there are both. `materials` maps names to indices.
+std::vector<SceneObject> read_object(Params& params, const Registry& registry,
+                                     const std::map<std::string, int>& materials);
 
 }  // namespace rondure

@@ -48,6 +48,20 @@ const std::vector<TypeDoc>& scene_docs() {
          "degrees}}, "
          "{\"scale\": number or vector}; a matrix may be projective, but for the analytic sphere"},
         {"material", "string", "a diffuse one of albedo 0.5", "a name under \"materials\""},
+        {"show", "array of \"surface\", \"control_surface\", \"net\", \"boundary\", \"isolines\"",
+         "[\"surface\"]",
+         "the patches themselves; the flat pieces between control points; as wires the control net, with "
+         "balls "
+         "at its points, the boundary of each patch, the parameter lines inside it. iss also has "
+         "\"spherical_triangle\" and "
+         "\"domain\", the sides of its domains on the unit sphere and in their planes, and \"arcs\"; of a "
+         "curve \"net\" is "
+         "its "
+         "control polygon"},
+        {"wire", "number > 0", "0.01", "radius of the wires, in scene units whatever the object's radius"},
+        {"wire_material", "string", "dark, or light on a dark surface",
+         "a name under \"materials\"; wires alone have the object's \"material\" unless this is given"},
+        {"isolines", "integer in [1, 100]", "8", "for \"show\": strips between lines, in each parameter"},
         {"solver", "\"newton\" or \"clipping\"", "\"newton\"", "how rays find the surface"},
         {"name", "string", "\"objects[i]\"", "what messages and lists call it"}}},
       {"sampling",

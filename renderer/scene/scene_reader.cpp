@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "renderer/api/utf8.h"
@@ -73,13 +74,31 @@ std::map<std::string, int> read_materials(Scene& scene, Params& root) {
   return names;
 }
 
+// Nearly black, or nearly white on a surface that is dark itself.
+int contrasting_material(Scene& scene, int surface) {
+  const Material material =
+      surface == default_material ? Material{} : scene.materials[static_cast<std::size_t>(surface)];
+  const auto* diffuse = std::get_if<Diffuse>(&material.scattering);
+  const bool dark =
+      diffuse && !emits(material) && diffuse->albedo.x + diffuse->albedo.y + diffuse->albedo.z < 0.6;
+  scene.materials.push_back(Material{Diffuse{dvec3(dark ? 0.85 : 0.03)}});
+  return static_cast<int>(scene.materials.size()) - 1;
+}
+
 void read_objects(Scene& scene, Params& root, const Registry& registry,
                   const std::map<std::string, int>& materials) {
   std::vector<Params> objects = root.objects("objects");
   if (objects.empty()) root.fail("objects", "\"objects\" is empty; a scene needs at least one");
   scene.objects_where = root.raw("objects")->where;
+  std::vector<SceneObject> wires;  // last, so that the numbers of the scene's own objects stay
   for (Params& params : objects) {
-    const SceneObject& object = scene.objects.emplace_back(read_object(params, registry, materials));
+    std::vector<SceneObject> parts = read_object(params, registry, materials);
+    if (parts.size() > 1) {
+      if (parts[1].material == contrast_material)
+        parts[1].material = contrasting_material(scene, parts[0].material);
+      wires.push_back(std::move(parts[1]));
+    }
+    const SceneObject& object = scene.objects.emplace_back(std::move(parts[0]));
     if (object.material == default_material || !object.traced.surface.patches.empty()) continue;
     if (scene.materials[static_cast<std::size_t>(object.material)].isolines) {
       params.fail("material", fmt::format("\"{}\" has no patches, and so no isolines; take a tiling, such as "
@@ -87,6 +106,7 @@ void read_objects(Scene& scene, Params& root, const Registry& registry,
                                           printable(object.type)));
     }
   }
+  std::move(wires.begin(), wires.end(), std::back_inserter(scene.objects));
   int plain = default_material;
   for (SceneObject& object : scene.objects) {
     if (object.material != default_material) continue;

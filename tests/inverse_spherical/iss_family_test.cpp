@@ -4,7 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/bezier/rational_curve.h"
 #include "renderer/intersect/tracer.h"
+#include "renderer/scene/wires.h"
 #include "tests/catch.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
@@ -69,37 +71,32 @@ TEST_CASE("the surface is the same however it is modified", "[iss]") {
   }
 }
 
-TEST_CASE("what an iss shows", "[iss]") {
-  const auto patches = [](const std::string& show) {
-    return build_family(iss(R"("show": )" + show)).patches.size();
-  };
-  CHECK(patches(R"(["surface"])") == 1);
-  CHECK(patches(R"(["control_surface"])") == 9);
-  CHECK(patches(R"(["control_net"])") == 18 * 3 + 10 * 8);
-  CHECK(patches(R"(["spherical_triangle"])") == 9);
-  CHECK(patches(R"(["domain", "surface"])") == 10);
-  CHECK_FALSE(build_family(iss(R"("octants": {}, "show": ["surface", "control_surface"])")).closed);
-  // A control point of the control surface lies where c says.
-  const Surface s =
-      build_family(iss(R"("show": ["control_surface"], "patches": [{"triangle": [0,1,2], "radii": 2}])"));
-  for (const Net& net : s.patches) {
-    for (const dvec4& p : points_of(net)) CHECK(glm::length(dvec3(p)) == Approx(2.0).epsilon(1e-15));
+TEST_CASE("an iss has the sides of its domains as guides", "[iss]") {
+  const Surface flat = build_family(iss(R"("patches": [{"triangle": [0,1,2], "radii": 2}])"));
+  REQUIRE(flat.guides.at("domain").size() == 3);
+  REQUIRE(flat.guides.at("spherical_triangle").size() == 3);
+  for (const Guide& side : flat.guides.at("spherical_triangle")) {
+    // Halfway between two axes.
+    const dvec3 middle = curve_point(side.curve, 0.5);
+    CHECK(glm::length(middle) == Approx(1.0).epsilon(1e-15));
+    CHECK(middle.x + middle.y + middle.z == Approx(std::sqrt(2.0)).epsilon(1e-15));
   }
+  CHECK(build_family(iss(R"("patches": [{"sphere": [0,1,2]}])")).guides.at("domain").empty());
 }
 
 TEST_CASE("an iss is drawn over great-circle arcs", "[iss]") {
-  const auto patches = [](const std::string& rest) { return build_family(iss(rest)).patches; };
   const std::string circle =
       R"("arcs": [{"from": [1,0,0.2], "to": [-1,1,0]}, {"from": [-1,1,0], "to": [0,-1,-0.3]}])";
   const std::string model =
       R"("octants": {"degree": 3, "interior": [0.25, 1.75, 1.75, 0.25, 1.75, 0.25, 0.25, 1.75]})";
-  const std::vector<Net> wires = patches(model + ", \"wire\": 0.02, " + circle);
-  CHECK(patches(model + ", \"show\": [\"surface\"], " + circle).size() > 8 + 6);
-  CHECK_FALSE(build_family(iss(model + ", \"show\": [\"surface\"], " + circle)).closed);
   // Rays along an arc's directions pass the surface in the middle of the wire: in and out at distances of the
   // wire's radius, over the cosine of the angle at which the ray meets it.
-  Surface drawn, surface = build_family(iss(model));
-  drawn.patches = wires;
+  const Surface surface = build_family(iss(model + ", " + circle));
+  CHECK(surface.closed);
+  Wires wires(0.02);
+  for (const Guide& guide : surface.guides.at("arcs")) wires.add(guide.curve, guide.end_balls);
+  Surface drawn;
+  drawn.patches = wires.nets();
   const Tracer wire({{drawn, Solver::newton}}), whole({{surface, Solver::newton}});
   WorstCase worst;
   const dvec3 from = glm::normalize(dvec3(1, 0, 0.2)), to = glm::normalize(dvec3(-1, 1, 0));
@@ -185,14 +182,10 @@ TEST_CASE("iss says what is wrong", "[iss]") {
          {"quarter": {}}, {"quarter": {}}, {"quarter": {}}])",
        "more than 100000 patches"},
       {R"("form": "quads")", "\"form\" must be one of"},
-      {R"("show": ["control surface"])", "did you mean \"control_surface\"?"},
-      {R"("show": ["domain", "domain"])", "listed twice"},
       {R"("arcs": [{"from": [1,1,1], "to": [2,2,2]}])", "neither parallel nor opposite"},
       {R"("arcs": [{"from": [1,1,1], "to": [-1,-1,-1]}])", "neither parallel nor opposite"},
       {R"("arcs": [{"from": [-1,1,1], "to": [-1,0,0]}])", "the arc passes by every patch"},
       {R"("patches": [{"sphere": [0,1,2]}], "arcs": [{"from": [1,1,2], "to": [1,0,0]}])", "Remark 7.1"},
-      {R"("arcs": [])", "there is nothing to show"},
-      {R"("wire": 0)", "\"wire\" must be a number greater than 0"},
   };
   for (const auto& [object, message] : cases) {
     INFO(object);

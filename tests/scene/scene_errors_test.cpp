@@ -112,9 +112,9 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere\", \"centre\": [0,0,0]}",
        "s.json:1:34: unknown key \"centre\" in objects[0]; did you mean \"center\"?"},
       {"{\"type\": \"sphere\", \"z_max\": 0.5}",
-       "s.json:1:34: unknown key \"z_max\" in objects[0]; known keys: \"center\", \"material\", \"name\", "
+       "s.json:1:34: unknown key \"z_max\" in objects[0]; known keys: \"center\", \"isolines\", \"material\", \"name\", "
        "\"radius\", "
-       "\"solver\", \"transform\", \"type\""},
+       "\"show\", \"solver\", \"transform\", \"type\", \"wire\", \"wire_material\""},
       {"{\"type\": \"sphere\", \"material\": \"clay\"}",
        "s.json:1:46: unknown material \"clay\"; there are none"},
       {"{\"type\": \"sphere\", \"solver\": \"exact\"}",

@@ -197,9 +197,11 @@ TEST_CASE("overrides that cannot be applied say which", "[scene]") {
        "s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"exact\" (set on the "
        "command line)"},
       {"/objects/0/colour=3",
-       "s.json: unknown key \"colour\" in objects[0]; known keys: \"center\", \"material\", \"name\", "
+       "s.json: unknown key \"colour\" in objects[0]; known keys: \"center\", \"isolines\", \"material\", "
+       "\"name\", "
        "\"radius\", "
-       "\"solver\", \"transform\", \"type\" (set on the command line)"},
+       "\"show\", \"solver\", \"transform\", \"type\", \"wire\", \"wire_material\" (set on the command "
+       "line)"},
   };
   for (const auto& [set, message] : table) {
     SceneOverrides overrides;
