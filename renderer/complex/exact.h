@@ -1,0 +1,14 @@
+// Rational numbers without rounding: what a surface complex and its functions are made of.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace rondure {
+
+using Integer = boost::multiprecision::cpp_int;
+using Exact = boost::multiprecision::cpp_rational;
+
+// The nearest double, or next to it.
+inline double rounded(const Exact& x) { return x.convert_to<double>(); }
+
+}  // namespace rondure
