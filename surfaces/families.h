@@ -13,6 +13,8 @@ void register_composed_patch(Registry& registry);
 void register_curve(Registry& registry);
 void register_projected_net(Registry& registry);
 void register_quadric_patch(Registry& registry);
+void register_gc_complex(Registry& registry);
+void register_gc_octahedron(Registry& registry);
 void register_iss(Registry& registry);
 void register_sphere(Registry& registry);
 void register_sphere_cap(Registry& registry);

@@ -101,7 +101,8 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphre\"}", "s.json:1:24: unknown type \"sphre\"; did you mean \"sphere\"?"},
       {"{\"type\": \"torus\"}",
        "s.json:1:24: unknown type \"torus\"; known: \"bezier\", \"circular_quad\", "
-       "\"circular_triangle\", \"composed_patch\", \"curve\", \"iss\", \"projected_net\", \"quadric_patch\", "
+       "\"circular_triangle\", \"composed_patch\", \"curve\", \"gc_octahedron\", \"iss\", \"projected_net\", "
+       "\"quadric_patch\", "
        "\"sphere\", \"sphere_cap\", "
        "\"sphere_octant\", "
        "\"sphere_tiling\", \"spherical_bspline\", \"spherical_quad\", \"stereographic_patch\""},
