@@ -9,6 +9,7 @@
 #include "surfaces/families.h"
 #include "surfaces/preimage_reader.h"
 #include "surfaces/quadric_reader.h"
+#include "surfaces/section_quad.h"
 
 namespace rondure {
 namespace {
@@ -111,19 +112,33 @@ Surface from_preimage(Params& params, const Quadric& quadric) {
   return surface;
 }
 
+Surface between_sections(Params& params, const Quadric& quadric) {
+  if (!is_ruled(quadric.kind))
+    params.fail("corners",
+                "this quadric is an image of the sphere: give a \"surface\" of type \"circular_quad\"");
+  Surface surface;
+  surface.patches.push_back(quadric_image(read_section_quad(params, quadric), quadric));
+  return surface;
+}
+
 Surface build(Params& params) {
   const Quadric quadric = read_quadric(params);
-  const char* const sources[] = {"surface", "preimage", "rulings"};
+  const char* const sources[] = {"surface", "preimage", "rulings", "corners"};
   const char* source = nullptr;
   for (const char* name : sources) {
     if (!params.has(name)) continue;
     if (source) params.fail(name, fmt::format("give either \"{}\" or \"{}\", not both", source, name));
     source = name;
   }
-  if (!source) params.fail("give the patch as \"surface\", \"preimage\" or \"rulings\"");
+  if (!source) params.fail("give the patch as \"surface\", \"preimage\", \"rulings\" or \"corners\"");
+  for (const char* key : {"sections", "construction", "quartic"}) {
+    if (params.has(key) && source != sources[3])
+      params.fail(key, fmt::format("\"{}\" has no meaning without \"corners\"", key));
+  }
   Surface surface = source == sources[0]   ? mapped_surface(params, quadric)
                     : source == sources[1] ? from_preimage(params, quadric)
-                                           : between_rulings(params, quadric);
+                    : source == sources[2] ? between_rulings(params, quadric)
+                                           : between_sections(params, quadric);
   for (std::size_t k = 0; k < surface.patches.size(); ++k) {
     if (bounds_of(surface.patches[k])) continue;
     params.fail(source, fmt::format("patch {} reaches infinity{}", k,
@@ -139,7 +154,7 @@ Surface build(Params& params) {
 }  // namespace
 
 void register_quadric_patch(Registry& registry) {
-  registry.add(SurfaceFamily{
+  SurfaceFamily family{
       "quadric_patch",
       "patches of any ellipsoid, hyperboloid or paraboloid, by projective maps (Dietz, Hoschek, Juettler "
       "1993, "
@@ -157,7 +172,9 @@ void register_quadric_patch(Registry& registry) {
         "with "
         "longitude s + t and z/c = tan(s - t); hyperbolic_paraboloid: numbers, with x/a = (s + t)/2, y/b = "
         "(s - t)/2, z/c = s t"}},
-      build});
+      build};
+  for (ParameterDoc& doc : section_quad_docs()) family.parameters.push_back(std::move(doc));
+  registry.add(std::move(family));
 }
 
 }  // namespace rondure

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "renderer/projective/preimage.h"
 #include "renderer/projective/spherical_quad.h"
@@ -27,6 +28,11 @@ Complex holonomy(const SphericalTriangle& triangle);
 // spread over the sides. `shape` > 0 is the one essential parameter, |b00| |b11| / (|b10| |b01|): it moves
 // parameters only.
 TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape);
+
+// The same as theorem 3.9's proof makes it, by intersecting planes and projecting lines (lemmas 3.7 and 3.8);
+// its shape is as it comes. Nothing where the arcs do not close to a patch, or where circles touch or meet
+// again at a corner, so that a plane or a point is not determined.
+std::optional<TensorPreimage> bilinear_preimage_by_planes(const SphericalQuad& quad);
 
 // Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are quadratic.
 TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad);

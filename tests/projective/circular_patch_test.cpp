@@ -136,6 +136,42 @@ TEST_CASE("bilinear nets bound quadrilaterals of holonomy 1 (theorem 3.9)", "[pr
   CHECK(negative == 8 * rounds);
 }
 
+TEST_CASE("the planes of theorem 3.9's proof make the same patch", "[projective]") {
+  NetMaker make(46);
+  WorstCase worst;
+  int closed = 0, open = 0;
+  for (int k = 0; k < 400; ++k) {
+    SphericalQuad quad = quad_of(k % 2 == 0 ? random_bilinear(make) : square_bilinear(make));
+    // The other arc of two circles closes as well, that of one circle does not.
+    for (std::size_t a = 0; a < static_cast<std::size_t>(k % 3); ++a) {
+      SphereArc& arc = quad.arc[a];
+      arc = {arc.p, arc.q, -arc.b, -arc.w};
+    }
+    const std::optional<TensorPreimage> planes = bilinear_preimage_by_planes(quad);
+    (planes ? closed : open) += 1;
+    CHECK(planes.has_value() == (k % 3 != 1));
+    if (!planes) continue;
+    // Up to the moduli of the control points, and one phase of all.
+    const TensorPreimage phases = bilinear_preimage(quad, 1);
+    Complex first = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Spinor p = to_spinor(planes->coefficients[c]), q = to_spinor(phases.coefficients[c]);
+      Complex ratio = std::abs(q.a) > std::abs(q.b) ? p.a / q.a : p.b / q.b;
+      ratio /= std::abs(ratio);
+      if (c == 0) first = ratio;
+      // Rounding of the arcs, over the sines of the angles between planes and lines.
+      worst.add(static_cast<double>(std::abs(ratio - first)), 1e-12,
+                [&] { return fmt::format("quad {}", k); });
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(closed > 250);
+  CHECK(open > 100);
+  // Arcs that do not close at all.
+  CHECK_FALSE(bilinear_preimage_by_planes(convex_geodesic(make)));
+}
+
 TEST_CASE("biquadratic patches have the sides they should", "[projective]") {
   NetMaker make(43);
   WorstCase worst;

@@ -59,7 +59,16 @@ const Case cases[] = {
      plain(QuadricKind::one_sheet, {1, 1, 1}), 1},
     {R"("quadric": "hyperbolic_paraboloid", "semi_axes": [1, 2, 3], "rulings": [[-1, 2], [-2, 1]])",
      plain(QuadricKind::hyperbolic_paraboloid, {1, 2, 3}), 1},
-    {R"("matrix": [[0,1,0,0],[1,0,0,0],[0,0,0,-1],[0,0,-1,0]], "rulings": [[-1, 1], [-1, 1]])", saddle, 1}};
+    {R"("matrix": [[0,1,0,0],[1,0,0,0],[0,0,0,-1],[0,0,-1,0]], "rulings": [[-1, 1], [-1, 1]])", saddle, 1},
+    // Two parallels and two meridians; then sides that only degree (2, 4) fits.
+    {R"("quadric": "one_sheet", "corners": [[1.25,0,-0.75],[0,1.25,-0.75],[0,1.25,0.75],[1.25,0,0.75]],
+         "sections": [{"plane": [0,0,1,-0.75]}, null, {"plane": [0,0,1,0.75]}, null])",
+     plain(QuadricKind::one_sheet, {1, 1, 1}), 1},
+    {R"("quadric": "one_sheet", "semi_axes": [2, 2, 2], "corners": [[2.5,0,-1.5],[0,2,0],[0,2.5,1.5],[2.5,0,1.5]])",
+     plain(QuadricKind::one_sheet, {2, 2, 2}), 1},
+    {R"("matrix": [[1,0,0,0],[0,-1,0,0],[0,0,0,-0.5],[0,0,-0.5,0]],
+         "corners": [[-1,-1,0],[1,-1,0],[1.5,1,1.25],[-1,1,0]], "sections": [null, {"through": [1.25,0.5,1.3125]}, null, null])",
+     plain(QuadricKind::hyperbolic_paraboloid, {1, 1, 1}), 1}};
 
 std::string object(const char* parameters) {
   return fmt::format(R"({{"type": "quadric_patch", {}}})", parameters);
@@ -192,6 +201,37 @@ TEST_CASE("rulings bound patches by straight lines where they say", "[surfaces]"
   CHECK(glm::distance(net_point(other.patches.at(0), 1.0, 1.0), dvec3(1.5, 0.5, 2)) < 1e-15);
 }
 
+TEST_CASE("patches between plane sections have the least degree and their sides", "[surfaces]") {
+  const auto net_of = [](const std::string& rest) {
+    const Surface surface = build_family(object(("\"quadric\": " + rest).c_str()));
+    return std::get<TensorNet>(surface.patches.at(0));
+  };
+  const std::string band =
+      R"("one_sheet", "corners": [[1.25,0,-0.75],[0,1.25,-0.75],[0,1.25,0.75],[1.25,0,0.75]],
+         "sections": [{"plane": [0,0,1,-0.75]}, null, {"plane": [0,0,1,0.75]}, null])";
+  const TensorNet low = net_of(band);
+  CHECK((low.m == 2 && low.n == 2));
+  for (int k = 0; k <= 2; ++k) {
+    CHECK(low.at(k, 0).z == Approx(-0.75 * low.at(k, 0).w));
+    CHECK(low.at(k, 2).z == Approx(0.75 * low.at(k, 2).w));
+    CHECK(std::abs(low.at(0, k).y) < 1e-15);
+    CHECK(std::abs(low.at(2, k).x) < 1e-15);
+  }
+  CHECK(glm::distance(net_point(low, 1, 0), dvec3(0, 1.25, -0.75)) < 1e-15);
+  CHECK(glm::distance(net_point(low, 1, 1), dvec3(0, 1.25, 0.75)) < 1e-15);
+  // The shorter arc of the parallel.
+  CHECK(net_point(low, 0.5, 0).x > 0.8);
+  const TensorNet high = net_of(band + R"(, "construction": "degree_2_4", "quartic": "v")");
+  CHECK((high.m == 2 && high.n == 4));
+  const TensorNet turned = net_of(band + R"(, "construction": "degree_2_4", "quartic": "u")");
+  CHECK((turned.m == 4 && turned.n == 2));
+  const TensorNet saddle_square =
+      net_of(R"("hyperbolic_paraboloid", "corners": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0]])");
+  CHECK((saddle_square.m == 2 && saddle_square.n == 2));
+  CHECK(glm::distance(net_point(saddle_square, 0.5, 0.5), dvec3(0)) < 1e-15);
+  CHECK(glm::distance(net_point(saddle_square, 0.5, 0), dvec3(0, -1, -1)) < 1e-15);
+}
+
 TEST_CASE("what no quadric patch can be is refused", "[surfaces]") {
   const auto refused = [](const char* parameters, const std::string& part) {
     const std::string message = family_error(object(parameters));
@@ -212,6 +252,25 @@ TEST_CASE("what no quadric patch can be is refused", "[surfaces]") {
   refused(R"("quadric": "one_sheet", "rulings": [[0,100],[0,1]])", "90 degrees or more");
   refused(R"("quadric": "one_sheet", "rulings": [[1,0],[0,1]])", "the lower first");
   refused(R"("quadric": "one_sheet", "rulings": [[0,1]])", "two intervals");
+  refused(R"("corners": [[1,0,0],[0,1,0],[0,0,1],[1,1,1]])", "of type \"circular_quad\"");
+  const std::string square =
+      R"("quadric": "hyperbolic_paraboloid", "corners": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0]])";
+  const auto sections = [&](const std::string& first, const std::string& part) {
+    refused((square + R"(, "sections": [)" + first + ", null, null, null]").c_str(), part);
+  };
+  sections(R"({"plane": [0,0,1,1]})", "the plane of sections[0] must contain both corners");
+  sections(R"({"plane": [0,1,0,-1], "through": [0,-1,-1]})", "either \"through\" or \"plane\"");
+  sections(R"({"through": [0,-1,1]})", "does not lie on the quadric");
+  sections(R"({"through": [0,0,0]})", "must not lie on a straight line");
+  sections("1", "sections[0] must be null");
+  refused(R"("quadric": "hyperbolic_paraboloid", "corners": [[-1,-1,0],[1,-1,0],[1,1,0],[-1,1,0.5]])",
+          "corners[3] does not lie on the quadric");
+  refused(R"("quadric": "hyperbolic_paraboloid", "corners": [[-1,-1,0],[1,-1,0],[1.5,1,1.25],[-1,1,0]],
+      "sections": [null, {"through": [1.25,0.5,1.3125]}, null, null], "construction": "biquadratic")",
+          "corners 0 and 2 lie in a plane");
+  refused(R"("quadric": "hyperbolic_paraboloid", "corners": [[-1,-1,0],[1,1,0],[1,-1,0],[-1,1,0]])",
+          "folds: sides must not cross");
+  refused(R"("rulings": [[0,1],[0,1]], "quartic": "u")", "\"quartic\" has no meaning");
   refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,0]])",
           "an elliptic cone");
   refused(R"("surface": {"type": "sphere_cap"}, "matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])",
