@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
+
 #include "renderer/projective/sphere_curve.h"
 #include "surfaces/arc_reader.h"
+#include "surfaces/quadric_reader.h"
 #include "surfaces/read_numbers.h"
 #include "surfaces/spline_reader.h"
 
@@ -74,11 +77,26 @@ ReadCurve in_space(Params& params) {
   return curve;
 }
 
-ReadCurve from_preimage(Params& params) {
+// The image on a ruled quadric; piece by piece, the control polygon too.
+ReadCurve ruled_curve(const BSpline& spline) {
+  ReadCurve curve;
+  for (const std::size_t span : spans_of(spline.degree, spline.knots, spline.points.size())) {
+    const TensorPreimage piece(spline.degree, 0, bezier_piece(spline, span));
+    const auto square =
+        multiply(piece, piece, [](const lvec4& a, const lvec4& b) { return ruled_image(a, b); });
+    curve.pieces.push_back(rounded(square.coefficients));
+    const RationalCurve& points = curve.pieces.back();
+    curve.polygon.insert(curve.polygon.end(), points.begin() + (curve.polygon.empty() ? 0 : 1), points.end());
+  }
+  return curve;
+}
+
+ReadCurve from_preimage(Params& params, bool ruled) {
   std::vector<lvec4> points;
   for (const Value& item : read_list(params, "preimage", 2, "control points").items)
     points.push_back(read_preimage_point(params, item));
   const BSpline spline = read_spline(params, std::move(points), max_degree / 2);
+  if (ruled) return ruled_curve(spline);
   ReadCurve curve;
   for (const std::size_t span : spans_of(spline.degree, spline.knots, spline.points.size()))
     curve.pieces.push_back(rounded(curve_image(bezier_piece(spline, span))));
@@ -173,6 +191,28 @@ ReadCurve on_circle(Params& params, const char* key) {
   return curve;
 }
 
+// The quadric that the curve is to lie on, instead of the unit sphere.
+std::optional<Quadric> read_other_quadric(Params& params, std::string_view form) {
+  std::optional<Quadric> quadric;
+  for (const char* key : {"quadric", "semi_axes", "matrix"}) {
+    if (!params.has(key) || quadric) continue;
+    if (form == "net") params.fail(key, fmt::format("\"{}\" has no meaning for \"net\"", key));
+    quadric = read_quadric(params);
+    if (is_ruled(quadric->kind) && form != "preimage")
+      params.fail(key,
+                  "this quadric carries straight lines and is no image of the sphere: give a \"preimage\"");
+  }
+  return quadric;
+}
+
+void map_to_quadric(const Quadric& quadric, ReadCurve& curve) {
+  const lmat4 map = map_to(quadric);
+  for (RationalCurve& piece : curve.pieces) {
+    for (dvec4& p : piece) p = dvec4(map * lvec4(p));
+  }
+  for (dvec4& p : curve.polygon) p = dvec4(map * lvec4(p));
+}
+
 }  // namespace
 
 ReadCurve read_curve(Params& params) {
@@ -193,16 +233,19 @@ ReadCurve read_curve(Params& params) {
   only_for("knots", is == "net" || is == "preimage");
   only_for("parameters", is == "interpolate");
   only_for("through", is == "spline");
+  const std::optional<Quadric> quadric = read_other_quadric(params, is);
   ReadCurve curve = is == "net"           ? in_space(params)
-                    : is == "preimage"    ? from_preimage(params)
+                    : is == "preimage"    ? from_preimage(params, quadric && is_ruled(quadric->kind))
                     : is == "interpolate" ? interpolating(params)
                     : is == "spline"      ? spline_of_arcs(params)
                                           : on_circle(params, form);
+  if (quadric) map_to_quadric(*quadric, curve);
   for (const RationalCurve& piece : curve.pieces) {
     if (!is_finite(piece))
-      params.fail(form, is == "net" ? "the curve reaches infinity, or has no point, where its weight is zero"
-                                    : "the four coordinates of the preimage vanish together somewhere on the "
-                                      "curve");
+      params.fail(form, is == "net" || quadric
+                            ? "the curve reaches infinity, or has no point, where its weight is zero"
+                            : "the four coordinates of the preimage vanish together somewhere on the "
+                              "curve");
   }
   return curve;
 }
@@ -211,7 +254,9 @@ std::vector<ParameterDoc> curve_docs() {
   return {
       {"net", "array of [wx, wy, wz, w]", "none", "control points of a rational curve in space"},
       {"preimage", "array of [p0, p1, p2, p3]", "none",
-       "control points in projective space of a curve whose image on the unit sphere has twice the degree"},
+       "control points in projective space of a curve whose image on the sphere or another quadric has twice "
+       "the "
+       "degree"},
       {"degree", "integer from 1 to 24, of a preimage 12", "one less than the control points",
        "of \"net\" or \"preimage\"; with a lower one they are those of a B-spline curve"},
       {"knots", "array of numbers", "equidistant, the ends repeated",
@@ -227,6 +272,9 @@ std::vector<ParameterDoc> curve_docs() {
        "circular arc on the unit sphere: start, between, end"},
       {"circle", "array of three directions [x, y, z]", "none",
        "the whole circle through three points of it"},
+      quadric_doc(),
+      semi_axes_doc(),
+      matrix_doc(),
   };
 }
 

@@ -11,7 +11,8 @@ struct ReadCurve {
   std::vector<dvec4> polygon;         // control points of the whole; a weight may be zero
 };
 
-// From exactly one of "net", "preimage", "interpolate", "spline", "arc" and "circle".
+// From exactly one of "net", "preimage", "interpolate", "spline", "arc" and "circle"; all but the first on
+// the unit sphere, or on the quadric that is its image under a projective map.
 ReadCurve read_curve(Params& params);
 
 std::vector<ParameterDoc> curve_docs();

@@ -98,6 +98,28 @@ TEST_CASE("curves in space and from projective space", "[surfaces]") {
   CHECK(meridian.off({0.8, 0, -0.6}, {0, 1, 0}, 0.01) < 1e-12);
 }
 
+TEST_CASE("curves on other quadrics", "[surfaces]") {
+  // Along the quadric's normal a curve on it lies at right angles.
+  const auto check = [](const std::string& rest, const dvec3& point, const dvec3& normal) {
+    INFO(rest);
+    const Probe probe(rest + R"(, "tube": 0.01)");
+    for (const double side : {-1.0, 1.0}) CHECK(probe.off(point, side * normal, 0.01) < 1.01 * tube_accuracy);
+  };
+  check(R"("circle": [[1,0,0], [0,1,0], [0,0,1]], "semi_axes": [1, 2, 3])", {0, 2, 0}, {0, 1, 0});
+  check(R"("interpolate": [[0.6,0,-0.8], [0,0,-1], [0,0.6,-0.8]], "quadric": "two_sheets")", {0, 0, 1},
+        {0, 0, 1});
+  // (x, y, z, w) = (3, 0, 4, 5) / 5 goes to (x, y, w + z, w - z), z/c = x^2 + y^2.
+  check(R"("arc": [[3,0,4], [0,0,-1], [-3,0,4]], "quadric": "elliptic_paraboloid")", {3, 0, 9}, {6, 0, -1});
+  // Half the waist; a straight line; a parabola in the plane y = 0 of z = x^2 - y^2.
+  check(R"("preimage": [[1,0,0,1], [0,1,1,0]], "quadric": "one_sheet")", {0, 1, 0}, {0, 1, 0});
+  check(R"("preimage": [[1,0,0,1], [1,0,1,1]], "quadric": "one_sheet")", {1, 0.5, -0.5}, {1, 0.5, 0.5});
+  check(R"("preimage": [[1,-1,-1,1], [1,1,1,1]], "quadric": "hyperbolic_paraboloid")", {0, 0, 0}, {0, 0, 1});
+  // A B-spline on it, of two pieces that share their polygon's point.
+  const Surface spline = build_family(
+      R"({"type": "curve", "preimage": [[1,0,0,1], [1,1,0,1], [1,1,1,1]], "degree": 1, "quadric": "one_sheet"})");
+  CHECK(spline.guides.at("net").size() == 4);
+}
+
 TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
   const auto says = [](const std::string& rest) { return complaint(R"({"type": "curve", )" + rest + "}"); };
   CHECK(says(R"("tube": 1)") ==
@@ -105,6 +127,12 @@ TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
         "\"circle\"");
   CHECK(says(R"("arc": [[1,0,0],[0,1,0],[0,0,1]], "net": [])") == "give either \"net\" or \"arc\", not both");
   CHECK(says(R"("arc": [[1,0,0],[0,1,0],[0,0,1]], "knots": [])") == "\"knots\" has no meaning for \"arc\"");
+  CHECK(says(R"("net": [[0,0,0,1],[1,0,0,1]], "quadric": "one_sheet")") ==
+        "\"quadric\" has no meaning for \"net\"");
+  CHECK(says(R"("arc": [[1,0,0],[0,1,0],[0,0,1]], "quadric": "one_sheet")") ==
+        "this quadric carries straight lines and is no image of the sphere: give a \"preimage\"");
+  CHECK(says(R"("arc": [[1,0,0],[0,1,0],[0,0,1]], "quadric": "elliptic_paraboloid")") ==
+        "the curve reaches infinity, or has no point, where its weight is zero");
   CHECK(says(R"("net": [[0,0,0,1]])") == "\"net\" must be an array of at least 2 control points");
   CHECK(says(R"("net": [[0,0,0,1],[1,0,0]])") ==
         "a control point must be an array of four numbers, [wx, wy, wz, w]");
