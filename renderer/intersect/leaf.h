@@ -43,7 +43,8 @@ struct LeafSet {
 // Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular
 // points, for `max_depth` halvings; what is not tame then goes to `clipping`, slower and just as right.
 // Throws std::runtime_error, naming the patch, when a net is not finite, is of too high a degree, or has
-// weights that stay of both signs (or zero) under subdivision.
-LeafSet build_leaves(const std::vector<Net>& patches, int max_depth);
+// weights that stay of both signs (or zero) under subdivision. Patches k with without[k] are
+// left out.
+LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without = {});
 
 }  // namespace rondure

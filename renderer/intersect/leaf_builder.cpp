@@ -198,11 +198,12 @@ void check_finite(const std::vector<dvec4>& points, int patch) {
 
 }  // namespace
 
-LeafSet build_leaves(const std::vector<Net>& patches, int max_depth) {
+LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without) {
   LeafSet out;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const int patch = static_cast<int>(k);
     check_finite(points_of(patches[k]), patch);
+    if (k < without.size() && without[k]) continue;
     const auto build = [&](auto shape, int degree, const std::vector<dvec4>& points) {
       if (degree > max_degree)
         throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, degree, max_degree));

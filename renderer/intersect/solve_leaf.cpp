@@ -13,7 +13,7 @@ SolverCounts& thread_counts() noexcept {
 void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
                 std::vector<Root>& roots, SolverCounts& counts) noexcept {
   const double error = residual_bound(leaf.scale, ray);
-  if (solver == Solver::newton) {
+  if (solver != Solver::clipping) {
     Root root;
     switch (newton_on_leaf(leaf, net, ray, error, root, counts.newton)) {
       case NewtonVerdict::none:

@@ -12,6 +12,7 @@
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/embree_scene.h"
+#include "renderer/intersect/radial.h"
 #include "renderer/intersect/settle.h"
 #include "renderer/intersect/solve_leaf.h"
 
@@ -20,7 +21,8 @@ namespace {
 
 // What a solver needs of one surface, beside its nets.
 struct CompiledSurface {
-  LeafSet set;  // empty for an analytic surface
+  LeafSet set;                      // empty for an analytic surface
+  std::vector<RadialPiece> radial;  // of the last leaves
   std::optional<Ellipsoid> ellipsoid;
   dvec3 frame{0.0};
 };
@@ -128,7 +130,11 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
   roots.clear();
-  solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
+  const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
+  if (leaf_index >= ordinary)
+    solve_radial(compiled.radial[leaf_index - ordinary], leaf, net, q.local, roots);
+  else
+    solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
   const double rounding = settled_bound(leaf.scale, q.local);
   for (const Root& root : roots) {
     const FirstOrder<dvec4> s = net_first(net, root.u, root.v);
@@ -206,8 +212,11 @@ constexpr double leaf_budget = 0x1p20;
 // Beyond these, squares and products of coordinates leave the range of doubles.
 constexpr double smallest_scene = 1e-60, largest_scene = 1e60;
 constexpr int deepest = 11, shallowest = 2;
+// Quarterings of a patch with a radial form: their boxes let enough rays by; more cost more than they save.
+constexpr int radial_depth = 2;
 
-CompiledSurface compile(const Surface& surface, int max_depth) {
+CompiledSurface compile(const TracedSurface& traced, int max_depth) {
+  const Surface& surface = traced.surface;
   CompiledSurface compiled;
   compiled.frame = surface.origin;
   if (surface.ellipsoid) {
@@ -216,7 +225,14 @@ CompiledSurface compile(const Surface& surface, int max_depth) {
     const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     compiled.set.boxes = {Box{-half, half}};
   } else {
-    compiled.set = build_leaves(surface.patches, max_depth);
+    std::vector<bool> radial;
+    for (const Net& net : surface.patches)
+      radial.push_back(traced.solver == Solver::radial && has_radial_form(net));
+    compiled.set = build_leaves(surface.patches, max_depth, radial);
+    for (std::size_t k = 0; k < radial.size(); ++k)
+      if (radial[k])
+        add_radial_leaves(surface.patches[k], static_cast<int>(k), std::min(radial_depth, max_depth / 2),
+                          compiled.set, compiled.radial);
   }
   return compiled;
 }
@@ -236,7 +252,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   std::vector<std::string> errors(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
     try {
-      self.compiled[k] = compile(self.surfaces[k].surface, depth);
+      self.compiled[k] = compile(self.surfaces[k], depth);
     } catch (const std::runtime_error& error) {
       errors[k] = error.what();
     }

@@ -11,7 +11,8 @@
 
 namespace rondure {
 
-enum class Solver { newton, clipping };
+// `radial`: in one unknown where a patch allows it (radial.h), else as `newton`.
+enum class Solver { newton, clipping, radial };
 
 // A surface and the solver that meets it.
 struct TracedSurface {

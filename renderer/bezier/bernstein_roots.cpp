@@ -1,0 +1,102 @@
+#include "renderer/bezier/bernstein_roots.h"
+
+#include <algorithm>
+
+#include "renderer/bezier/curve.h"
+
+namespace rondure {
+namespace {
+
+// Halves are told apart to this part of [0, 1]; what noise leaves undecided then is one root.
+constexpr int deepest = 40;
+
+struct Piece {
+  double c[max_degree + 1];
+  double low, width;
+  int depth;
+};
+
+// Of the coefficients: how many are above and below the noise, and how often those change sign.
+struct Signs {
+  int above = 0, below = 0, changes = 0;
+};
+
+Signs signs_of(const double* c, int n, double noise) {
+  Signs s;
+  int previous = 0;
+  for (int k = 0; k <= n; ++k) {
+    const int sign = c[k] > noise ? 1 : c[k] < -noise ? -1 : 0;
+    s.above += sign > 0, s.below += sign < 0;
+    if (sign == 0) continue;
+    s.changes += previous != 0 && sign != previous;
+    previous = sign;
+  }
+  return s;
+}
+
+// Noise stands between the signs alone, so that whatever it hides there is one change.
+bool noise_between(const double* c, int n, double noise) {
+  int previous = 0, gap = 0;
+  for (int k = 0; k <= n; ++k) {
+    const int sign = c[k] > noise ? 1 : c[k] < -noise ? -1 : 0;
+    if (sign == 0) {
+      if (previous == 0) return false;
+      ++gap;
+      continue;
+    }
+    if (gap > 0 && sign == previous) return false;
+    gap = 0;
+    previous = sign;
+  }
+  return gap == 0;
+}
+
+}  // namespace
+
+void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& out) noexcept {
+  Piece stack[deepest + 2];
+  int top = 0;
+  Piece& whole = stack[top++];
+  for (int k = 0; k <= n; ++k) whole.c[k] = scaled[k] / binomial(n, k);
+  whole.low = 0.0, whole.width = 1.0, whole.depth = 0;
+  // A root between two pieces is found in both, and a doubtful one in several: one is enough.
+  const auto propose = [&](double t, bool simple, double width) {
+    if (out.count > 0) {
+      const BernsteinRoot& last = out.items[static_cast<std::size_t>(out.count - 1)];
+      if (!simple && std::fabs(t - last.t) <= 0x1p-36) return;
+    }
+    out.add({t, simple, width});
+  };
+  while (top > 0) {
+    const Piece piece = stack[--top];
+    const Signs s = signs_of(piece.c, n, noise);
+    if (s.above == n + 1 || s.below == n + 1) continue;
+    const bool alone = s.above + s.below == n && (s.above == 0 || s.below == 0);
+    if (alone && std::fabs(piece.c[0]) <= noise) {  // nothing beyond the end itself
+      propose(piece.low, false, 0.0);
+      continue;
+    }
+    if (alone && std::fabs(piece.c[n]) <= noise) {
+      propose(piece.low + piece.width, false, 0.0);
+      continue;
+    }
+    if (s.changes == 1 && noise_between(piece.c, n, noise)) {
+      double c[max_degree + 1];
+      for (int k = 0; k <= n; ++k) c[k] = binomial(n, k) * piece.c[k];
+      propose(piece.low + piece.width * detail::simple_root<dynamic>(n, c), true, 0.0);
+      continue;
+    }
+    if (piece.depth == deepest || (s.above == 0 && s.below == 0)) {
+      propose(piece.low + 0.5 * piece.width, false, 0.5 * piece.width);
+      continue;
+    }
+    Piece &high = stack[top], &low = stack[top + 1];
+    curve_halve(piece.c, n, 1, low.c, high.c);
+    low.width = high.width = 0.5 * piece.width;
+    low.low = piece.low, high.low = piece.low + low.width;
+    low.depth = high.depth = piece.depth + 1;
+    top += 2;
+  }
+}
+
+}  // namespace rondure
