@@ -26,7 +26,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                   "Change a value of the scene before it is read; may be repeated")
       ->type_name("/json/pointer=value")
       ->allow_extra_args(false);
-  command.add_option("--solver", options.overrides.solver, "Solver of every object: newton or clipping")
+  command.add_option("--solver", options.overrides.solver, "Solver of every object: newton, clipping or radial")
       ->type_name("NAME");
 }
 

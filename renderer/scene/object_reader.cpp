@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
+#include "renderer/intersect/radial.h"
 #include "renderer/scene/show.h"
 #include "renderer/scene/transform_reader.h"
 #include "renderer/scene/unknown_name.h"
@@ -67,6 +69,13 @@ int read_material_name(Params& params, const char* key, int otherwise,
   params.fail(*value, unknown_name("material", name, names));
 }
 
+Solver solver_named(const std::string& name, const Surface& surface) {
+  if (name == "clipping") return Solver::clipping;
+  const bool radial =
+      name == "radial" && std::any_of(surface.patches.begin(), surface.patches.end(), has_radial_form);
+  return radial ? Solver::radial : Solver::newton;
+}
+
 }  // namespace
 
 void place(Surface& surface, const Placement& placement) {
@@ -91,9 +100,7 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
   placement.radius = params.number("radius", placement.radius, Range::positive());
   placement.transform = read_transform(params);
   object.material = read_material_name(params, "material", default_material, materials);
-  object.traced.solver = params.choice("solver", {"newton", "clipping"}, "newton") == "clipping"
-                             ? Solver::clipping
-                             : Solver::newton;
+  const std::string solver = params.choice("solver", {"newton", "clipping", "radial"}, "radial");
   object.traced.surface = family.build(params);
   const Show show = read_show(params, object.traced.surface);
   const int wire_material = read_material_name(params, "wire_material", contrast_material, materials);
@@ -117,6 +124,7 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
     if (parts.surface || wire_material != contrast_material) object.material = wire_material;
     objects.push_back(std::move(object));
   }
+  for (SceneObject& each : objects) each.traced.solver = solver_named(solver, each.traced.surface);
   return objects;
 }
 

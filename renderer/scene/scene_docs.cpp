@@ -62,7 +62,10 @@ const std::vector<TypeDoc>& scene_docs() {
         {"wire_material", "string", "dark, or light on a dark surface",
          "a name under \"materials\"; wires alone have the object's \"material\" unless this is given"},
         {"isolines", "integer in [1, 100]", "8", "for \"show\": strips between lines, in each parameter"},
-        {"solver", "\"newton\" or \"clipping\"", "\"newton\"", "how rays find the surface"},
+        {"solver", "\"newton\", \"clipping\" or \"radial\"", "\"radial\"",
+         "how rays find the surface: \"radial\" solves one polynomial for the whole ray, on inverse "
+         "spherical "
+         "patches with a planar projection domain; other patches are then met as by \"newton\""},
         {"name", "string", "\"objects[i]\"", "what messages and lists call it"}}},
       {"sampling",
        "How many samples, and which.",

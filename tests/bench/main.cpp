@@ -12,6 +12,7 @@
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/bench/embree_baselines.h"
+#include "tests/bench/radial.h"
 #include "tests/bench/ray_sets.h"
 #include "tests/surfaces/build_family.h"
 
@@ -130,6 +131,8 @@ int main(int argc, char** argv) {
   print_counts("hemispheres, newton", hemispheres_newton, sets[1]);
   print_counts("octants, newton", octants_newton, sets[1]);
   print_counts("cube, clipping", cube_clipping, sets[1]);
+
+  print_radial(rounds);
 
   fmt::print("\nbuild                     patches     leaves  seconds  patches/s  bytes/patch\n");
   for (const int count : {1, 1000, 100'000}) {

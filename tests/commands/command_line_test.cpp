@@ -65,7 +65,8 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
        "scene.json: integrator: unknown integrator \"paht\"; did you mean \"path\"? (set on the command "
        "line)"},
       {{"info", "scene.json", "--solver", "bisection"},
-       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"bisection\" (set "
+       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found "
+       "\"bisection\" (set "
        "on the "
        "command line)"},
       {{"list", "--plugin", "missing.so"}, "plugin missing.so: there is no such file or folder"},
@@ -125,7 +126,8 @@ TEST_CASE("options of the scene may stand anywhere and more than once", "[comman
   CHECK(says({"validate", "s.json", "--solver", "clipping", "--set", "/objects/0/type=sphere_octant", "--set",
               "/objects/0/radius=2"}) == valid);
   CHECK(says({"validate", "s.json", "--solver", "fast"}) ==
-        "rondure: error: s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found "
+        "rondure: error: s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", "
+        "found "
         "\"fast\" (set on "
         "the command line)\n");
   CHECK(says({"validate", "s.json", "--set", "/objects/3/radius=2"}) ==

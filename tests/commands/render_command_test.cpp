@@ -51,6 +51,10 @@ TEST_CASE("the file's header names what found the hits", "[commands]") {
       {R"({ "type": "sphere", "solver": "clipping" })", "closed form"},
       {R"({ "type": "sphere_octant" })", "newton"},
       {R"({ "type": "sphere_octant", "solver": "clipping" })", "clipping"},
+      {R"({ "type": "sphere_octant", "solver": "radial" })", "newton"},
+      {R"({ "type": "iss" })", "radial"},
+      {R"({ "type": "iss", "solver": "newton" })", "newton"},
+      {R"({ "type": "iss", "form": "degenerate" })", "newton"},
       {R"({ "type": "sphere_octant" }, { "type": "sphere" }, { "type": "sphere_cap" })",
        "closed form, newton"},
   };

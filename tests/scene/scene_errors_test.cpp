@@ -113,13 +113,14 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere\", \"centre\": [0,0,0]}",
        "s.json:1:34: unknown key \"centre\" in objects[0]; did you mean \"center\"?"},
       {"{\"type\": \"sphere\", \"z_max\": 0.5}",
-       "s.json:1:34: unknown key \"z_max\" in objects[0]; known keys: \"center\", \"isolines\", \"material\", \"name\", "
+       "s.json:1:34: unknown key \"z_max\" in objects[0]; known keys: \"center\", \"isolines\", "
+       "\"material\", \"name\", "
        "\"radius\", "
        "\"show\", \"solver\", \"transform\", \"type\", \"wire\", \"wire_material\""},
       {"{\"type\": \"sphere\", \"material\": \"clay\"}",
        "s.json:1:46: unknown material \"clay\"; there are none"},
       {"{\"type\": \"sphere\", \"solver\": \"exact\"}",
-       "s.json:1:44: \"solver\" must be one of \"newton\", \"clipping\", found \"exact\""},
+       "s.json:1:44: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found \"exact\""},
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",
        "s.json:1:47: \"z_max\" must be a number in (-1, 0.999999999], found 1"},
       {"{\"type\": \"sphere_tiling\", \"topology\": \"cubes\"}",

@@ -194,7 +194,8 @@ TEST_CASE("overrides that cannot be applied say which", "[scene]") {
        "s.json: objects[0]: \"radius\" must be a number greater than 0, found \"[1\" (set on the command "
        "line)"},
       {"/objects/0/solver=exact",
-       "s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", found \"exact\" (set on the "
+       "s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found \"exact\" "
+       "(set on the "
        "command line)"},
       {"/objects/0/colour=3",
        "s.json: unknown key \"colour\" in objects[0]; known keys: \"center\", \"isolines\", \"material\", "
