@@ -1,6 +1,7 @@
 // Rational Bezier and B-spline curves, and curves on the unit sphere (Dietz, Hoschek, Juettler 1993, sections
 // 3.4, 3.6 and 4), drawn as round tubes.
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "renderer/api/registry.h"
 #include "renderer/bezier/tube.h"
@@ -18,6 +19,14 @@ void add(const std::vector<TensorNet>& nets, Surface& surface) {
 // Tangents that differ by less than this leave no gap between tubes that could be seen.
 bool is_smooth(const dvec3& before, const dvec3& after) {
   return glm::dot(before, after) > 0.0 && glm::length(glm::cross(before, after)) < tube_accuracy;
+}
+
+CurveTube tube_of(const Params& params, const RationalCurve& piece, double radius) {
+  try {
+    return curve_tube(piece, radius);
+  } catch (const std::invalid_argument& error) {
+    params.fail("tube", error.what());
+  }
 }
 
 // The control polygon; of the tube's own patches there is nothing to see.
@@ -38,7 +47,7 @@ Surface build(Params& params) {
   std::vector<CurveTube> tubes;
   std::vector<RationalCurve> pieces;
   for (const RationalCurve& piece : curve.pieces) {
-    CurveTube tube = curve_tube(piece, radius);
+    CurveTube tube = tube_of(params, piece, radius);
     if (tube.nets.empty() && tube.cusps.empty()) continue;
     add(tube.nets, surface);
     for (const dvec3& cusp : tube.cusps) add(ball(cusp, radius), surface);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "renderer/bezier/tube.h"
 #include "renderer/bezier/tube_section.h"
@@ -173,6 +174,10 @@ class TubeMaker {
   std::vector<std::size_t> skipped_;  // sections after which there is no skin
 
   void divide(const Section& from, const Section& to) {
+    constexpr std::size_t most_sections = 50000;
+    if (sections_.size() > most_sections)
+      throw std::invalid_argument(
+          "the curve winds too much, or its weights differ too much, for so thin a tube");
     const Section middle = section_at(curve_, 0.5 * (from.t + to.t));
     const double length =
         glm::distance(from.jet.point, middle.jet.point) + glm::distance(middle.jet.point, to.jet.point);
@@ -230,6 +235,10 @@ CurveTube curve_tube(const RationalCurve& curve, double radius) {
   const double tolerance = std::min(1e-11 * extent, 0.1 * tube_accuracy * radius);
   CurveTube tube;
   if (!(extent > 1e-9 * radius)) return tube;
+  double largest = 0.0;
+  for (const dvec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (!(radius >= 1e-9 * largest))
+    throw std::invalid_argument("the tube is too thin for the size of the curve");
   if (is_straight(points, tolerance)) {
     tube.nets = straight_tube(points.front(), points.back(), radius);
     tube.start = tube.end = glm::normalize(points.back() - points.front());

@@ -35,6 +35,8 @@ inline constexpr double tube_accuracy = 1e-3;
 // The tube of this radius about a curve whose weights have no zero in [0, 1]: cylinders or tori where the
 // curve is a line or a circular arc, else patches of degree (2, 3) with smooth joints. Where the curve turns
 // more sharply than the tube is thick the tube penetrates itself. Nothing for a curve that is one point.
+// Throws std::invalid_argument where the radius is below 1e-9 of the largest coordinate, so that rounding
+// would show, or the tube would need more than 50000 sections.
 CurveTube curve_tube(const RationalCurve& curve, double radius);
 
 }  // namespace rondure

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 #include "renderer/bezier/control_surface.h"
 #include "renderer/scene/wires.h"
@@ -16,6 +17,9 @@ constexpr const char* general_parts[] = {"surface", "control_surface", "net", "b
 
 // Balls at control points, in radii of the wires between them.
 constexpr double point_balls = 2.0;
+
+// Of wires: each has a few leaves at least.
+constexpr std::size_t most_patches = 300000;
 
 struct Line {
   dvec2 from, to;
@@ -116,7 +120,19 @@ class Shown {
 
   void add_curve(const RationalCurve& curve, double end_balls, const std::string& part) {
     if (!is_finite(curve)) params_.fail("show", fmt::format("a line of \"{}\" reaches infinity", part));
-    wires_.add(curve, end_balls);
+    try {
+      wires_.add(curve, end_balls);
+    } catch (const std::invalid_argument& error) {
+      params_.fail("wire", error.what());
+    }
+    check_size();
+  }
+
+  void check_size() const {
+    if (wires_.size() > most_patches)
+      params_.fail(
+          "show",
+          fmt::format("the wires would be more than {} patches: show fewer parts or isolines", most_patches));
   }
 
   void add_lines(const Net& net, const std::vector<Line>& lines, double end_balls, const std::string& part) {
@@ -130,7 +146,10 @@ class Shown {
       return;
     }
     for (const Net& net : surface_.patches) {
-      if (part == "net") std::visit([&](const auto& n) { add_net(n, wires_); }, net);
+      if (part == "net") {
+        std::visit([&](const auto& n) { add_net(n, wires_); }, net);
+        check_size();
+      }
       if (part == "boundary") add_lines(net, boundary_of(net), 1.0, part);
       // Wires along the boundary close the ends of those that lead to it.
       if (part == "isolines")

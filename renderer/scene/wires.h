@@ -16,10 +16,12 @@ class Wires {
   explicit Wires(double radius) : radius_(radius) {}
 
   // A curve with finite points (see is_finite); balls at its ends of so many radii, none for 0. A curve that
-  // is one point leaves its ball only. Curves with the same ends and middle count as the same.
+  // is one point leaves its ball only. Throws what curve_tube throws. Curves with the same ends and middle
+  // count as the same.
   void add(const RationalCurve& curve, double end_balls);
   void add_ball(const dvec3& point, double balls);
 
+  std::size_t size() const { return tubes_.size() + 6 * balls_.size(); }  // of nets()
   std::vector<Net> nets() const;  // curves in the order in which they came, then balls
 
  private:

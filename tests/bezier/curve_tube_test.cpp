@@ -138,6 +138,15 @@ TEST_CASE("tubes along circular arcs and lines are exact", "[bezier]") {
   CHECK(straight.start == straight.end);
 }
 
+TEST_CASE("a tube that rounding would show in is refused", "[bezier]") {
+  const RationalCurve bent = {dvec4(0, 0, 0, 1), dvec4(0.5, 0, 0, 0.5), dvec4(1, 1, 0, 1)};
+  CHECK(curve_tube(bent, 1e-8).nets.size() > 100);
+  CHECK_THROWS_WITH(curve_tube(bent, 1e-10), "the tube is too thin for the size of the curve");
+  // Rounding of points where a weight of 1e-9 meets control points of weight 1.
+  const RationalCurve wild = {dvec4(0, 0, 0, 1), dvec4(-1, 0, 0, -1 + 1e-13), dvec4(1e-9, 1, 0, 1)};
+  CHECK_THROWS(curve_tube(wild, 1e-5));
+}
+
 TEST_CASE("at cusps and turning points a tube leaves a place for a ball", "[bezier]") {
   // c' = (3/4) (1, 1) + ... vanishes at t = 1/2, and nowhere else.
   const RationalCurve cusp = {dvec4(0, 0, 0, 1), dvec4(1, 1, 0, 1), dvec4(0, 1, 0, 1), dvec4(1, 0, 0, 1)};

@@ -189,6 +189,11 @@ TEST_CASE("what cannot be shown is said", "[scene]") {
   CHECK_THAT(says(R"({"type": "sphere_cap", "isolines": 101})"), Catch::Contains("\"isolines\" must be"));
   CHECK_THAT(says(R"({"type": "sphere_cap", "wire_material": "rde"})"),
              Catch::Contains("unknown material \"rde\""));
+  CHECK_THAT(says(R"({"type": "sphere_tiling", "show": ["isolines"], "wire": 1e-12})"),
+             Catch::EndsWith("the tube is too thin for the size of the curve"));
+  CHECK_THAT(says(R"({"type": "sphere_tiling", "topology": "icosahedron_quads", "show": ["isolines"],
+                      "isolines": 100, "wire": 1e-4})"),
+             Catch::Contains("more than 300000 patches"));
   CHECK_THAT(says(R"({"type": "sphere", "show": ["surface", "net"]})"),
              Catch::Contains("s.json:1:") && Catch::Contains("no patches, and so no lines or nets"));
   CHECK_THAT(says(R"({"type": "iss", "patches": [{"sphere": [0,1,2]}], "show": ["domain"]})"),

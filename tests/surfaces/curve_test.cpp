@@ -159,6 +159,8 @@ TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
       says(
           R"("interpolate": [[1,0,0],[15,8,0],[3,4,0],[0,0,1],[0,1,0]], "parameters": [0, 0.25, 0.5, 0.75, 1])")
           .find("does not pass through point 3: such points are inaccessible") != std::string::npos);
+  CHECK(says(R"("net": [[0,0,0,1],[1,0,0,1],[1,1,0,1]], "tube": 1e-12)") ==
+        "the tube is too thin for the size of the curve");
   CHECK(says(R"("spline": [[1,0,0],[0,1,0],[0,2,0]])") == "this is the same point as another beside it");
   CHECK(says(R"("spline": [[1,0,0],[-1,0,0]])") ==
         "the first two points are opposite: give a point \"through\" which the first arc passes");
