@@ -50,7 +50,9 @@ void register_sphere_cap(Registry& registry) {
       "the unit sphere below z_max as one biquartic patch, singular at its corners (Cobb 1988, section 5, "
       "Table 3)",
       {{"z_max", "number in (-1, 0.999999999]", "0",
-        "height of the boundary circle; 0 is the southern hemisphere of Table 2"},
+        "height of the boundary circle; 0 is the southern hemisphere of Table 2. Above 0.999999 parameters "
+        "that are doubles resolve the rim to some 10^-11 radii only, and rays that pass it by less may count "
+        "as hits"},
        {"middle_weight", "number in [0.001, 10^6]",
         "max(1, 1.125 times the least that keeps all weights positive)",
         "weight of the planar disk's middle control point; moves parameters, not the surface (the paper has "

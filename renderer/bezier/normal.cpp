@@ -12,43 +12,91 @@ namespace rondure {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// How far inside the domain a limit is taken; its direction is off by about as much.
-constexpr double inset = 0x1p-53;
+double largest_component(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-dvec3 value_inside(const TensorPolynomial<dvec3>& p, double u, double v) {
-  double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
-  bernstein_values(p.m, std::clamp(u, inset, 1.0 - inset), bu);
-  bernstein_values(p.n, std::clamp(v, inset, 1.0 - inset), bv);
-  dvec3 sum(0.0);
+// How far inside the domain a limit is taken: so little that of the normal polynomial only the terms of
+// lowest order count, however unequal the weights, and not so little that those of order ten underflow.
+constexpr double inset = 0x1p-100;
+
+// The Bernstein polynomials of degree n at t, or `inset` inside where t is an end of [0, 1].
+void values_inside(int n, double t, double* out) {
+  const double a = std::max(t, inset), b = std::max(1.0 - t, inset);
+  for (int k = 0; k <= n; ++k) out[k] = binomial(n, k) * std::pow(a, k) * std::pow(b, n - k);
+}
+
+struct Sum {
+  dvec3 value{0.0};
+  double terms = 0.0;  // sum of the sizes of what was added, coordinate by coordinate
+
+  void add(double basis, const dvec3& coefficient) {
+    value += basis * coefficient;
+    terms += basis * (std::abs(coefficient.x) + std::abs(coefficient.y) + std::abs(coefficient.z));
+  }
+};
+
+Sum sum_of(const TensorPolynomial<dvec3>& p, const double* bu, const double* bv) {
+  Sum sum;
   for (int i = 0; i <= p.m; ++i) {
-    for (int j = 0; j <= p.n; ++j) sum += (bu[i] * bv[j]) * p.at(i, j);
+    for (int j = 0; j <= p.n; ++j) sum.add(bu[i] * bv[j], p.at(i, j));
   }
   return sum;
 }
 
-dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
-  const double a = std::max(u, inset);
-  const double b = std::max(v, inset);
-  const double c = std::max(1.0 - u - v, inset);
-  std::vector<double> pb(static_cast<std::size_t>(p.n) + 1, 1.0), pc = pb;
+Sum evaluate(const TensorPolynomial<dvec3>& p, double u, double v) {
+  double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
+  bernstein_values(p.m, u, bu);
+  bernstein_values(p.n, v, bv);
+  return sum_of(p, bu, bv);
+}
+
+// Calls visit(i, j, value) for the Bernstein polynomials of degree n in barycentric a, b, c.
+template <class Visit>
+void visit_basis(int n, double a, double b, double c, Visit&& visit) {
+  std::vector<double> pb(static_cast<std::size_t>(n) + 1, 1.0), pc = pb;
   for (std::size_t k = 1; k < pb.size(); ++k) {
     pb[k] = pb[k - 1] * b;
     pc[k] = pc[k - 1] * c;
   }
-  dvec3 sum(0.0);
   double pa = 1.0;
-  for (int i = 0; i <= p.n; ++i) {
-    for (int j = 0; j <= p.n - i; ++j) {
-      const double powers = pb[static_cast<std::size_t>(j)] * pc[static_cast<std::size_t>(p.n - i - j)];
-      sum += (trinomial(p.n, i, j) * pa * powers) * p.at(i, j);
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n - i; ++j) {
+      const double powers = pb[static_cast<std::size_t>(j)] * pc[static_cast<std::size_t>(n - i - j)];
+      visit(i, j, trinomial(n, i, j) * pa * powers);
     }
     pa *= a;
   }
+}
+
+Sum evaluate(const TrianglePolynomial<dvec3>& p, double a, double b, double c) {
+  Sum sum;
+  visit_basis(p.n, a, b, c, [&](int i, int j, double basis) { sum.add(basis, p.at(i, j)); });
   return sum;
 }
 
-double largest_component(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+Sum evaluate(const TrianglePolynomial<dvec3>& p, double u, double v) {
+  return evaluate(p, u, v, std::max(1.0 - u - v, 0.0));
+}
+
+dvec3 value_inside(const TensorPolynomial<dvec3>& p, double u, double v) {
+  double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
+  values_inside(p.m, u, bu);
+  values_inside(p.n, v, bv);
+  return sum_of(p, bu, bv).value;
+}
+
+dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
+  return evaluate(p, std::max(u, inset), std::max(v, inset), std::max(1.0 - u - v, inset)).value;
+}
+
+// The value, or where it vanishes its limit from inside.
+template <class Polynomial>
+dvec3 value_or_limit(const Polynomial& p, double u, double v) {
+  constexpr double vanishing = 1e-6;  // leaves nine digits of a value's rounding
+  const Sum sum = evaluate(p, u, v);
+  return largest_component(sum.value) > vanishing * sum.terms ? sum.value : value_inside(p, u, v);
+}
 
 dvec3 unit_or_zero(const dvec3& n) {
   // Scaled first: close to a singular point of high order the square of the length would underflow.
@@ -87,16 +135,74 @@ double magnitude(const Net& net, const FirstOrder<dvec4>& f) {
   return largest.x + largest.y + largest.z;
 }
 
+// Bounds on the sums of the sizes of what the point and the tangents are sums of, at one place.
+struct Terms {
+  double value = 0.0, du = 0.0, dv = 0.0;
+};
+
+// Of a coordinate w (x - p): what rounding of it is relative to.
+double size_about(const dvec4& c, double reach) {
+  return std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w) * reach;
+}
+
+Terms terms_of(const TensorNet& net, double u, double v, double reach) {
+  double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
+  double cu[max_binomial_degree + 1] = {}, cv[max_binomial_degree + 1] = {};
+  bernstein_values(net.m, u, bu);
+  bernstein_values(net.n, v, bv);
+  if (net.m > 0) bernstein_values(net.m - 1, u, cu);
+  if (net.n > 0) bernstein_values(net.n - 1, v, cv);
+  Terms sum;
+  for (int i = 0; i <= net.m; ++i) {
+    const double du = net.m * ((i > 0 ? cu[i - 1] : 0.0) + (i < net.m ? cu[i] : 0.0));
+    for (int j = 0; j <= net.n; ++j) {
+      const double dv = net.n * ((j > 0 ? cv[j - 1] : 0.0) + (j < net.n ? cv[j] : 0.0));
+      const double size = size_about(net.at(i, j), reach);
+      sum.value += bu[i] * bv[j] * size;
+      sum.du += du * bv[j] * size;
+      sum.dv += bu[i] * dv * size;
+    }
+  }
+  return sum;
+}
+
+Terms terms_of(const TriangleNet& net, double u, double v, double reach) {
+  const double w = std::max(1.0 - u - v, 0.0);
+  const auto size = [&](int i, int j) { return size_about(net.at(i, j), reach); };
+  Terms sum;
+  visit_basis(net.n, u, v, w, [&](int i, int j, double basis) { sum.value += basis * size(i, j); });
+  if (net.n == 0) return sum;
+  visit_basis(net.n - 1, u, v, w, [&](int i, int j, double basis) {
+    sum.du += net.n * basis * (size(i + 1, j) + size(i, j));
+    sum.dv += net.n * basis * (size(i, j + 1) + size(i, j));
+  });
+  return sum;
+}
+
 int degree_of(const Net& net) {
   if (const auto* t = std::get_if<TensorNet>(&net)) return std::max(t->m, t->n);
   return std::get<TriangleNet>(net).n;
 }
 
 constexpr double singular = 1e-4;
+constexpr double accurate = 1e-11;  // of the relative error of a cross product
 
 // The cross product of the tangents in units of the net's spread, in which it neither overflows nor
 // underflows.
 dvec3 relative_cross(const Tangents& t, double scale) { return glm::cross(t.a / scale, t.b / scale); }
+
+// A bound, up to a small factor, on the relative error of the cross product of the tangents at (u, v);
+// infinite where it vanishes.
+double cross_error(const Net& net, double u, double v, const FirstOrder<dvec4>& f, const Tangents& t) {
+  const double reach = std::abs(t.point.x) + std::abs(t.point.y) + std::abs(t.point.z);
+  const Terms terms = std::visit([&](const auto& n) { return terms_of(n, u, v, reach); }, net);
+  const double of_point = terms.value / std::abs(f.value.w);  // relative to epsilon, as all here
+  const double of_a = terms.du + std::abs(f.du.w) * of_point, of_b = terms.dv + std::abs(f.dv.w) * of_point;
+  const double a = largest_component(t.a), b = largest_component(t.b);
+  const double sine = glm::length(glm::cross(t.a / a, t.b / b));
+  const double error = epsilon * degree_of(net) * (of_a / a + of_b / b) / sine;
+  return a > 0.0 && b > 0.0 && sine > 0.0 && std::isfinite(error) ? error : infinity;
+}
 
 // The squares of lengths between these are neither subnormal nor infinite.
 constexpr double shortest = 1e-145, longest = 1e150;
@@ -111,24 +217,36 @@ dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f
   // are sums of control points, so their errors are relative to those, whatever the unit of length. The
   // comparison with `shortest` is what excludes tangents of length zero, where both sides would be zero.
   const double noise = 8.0 * epsilon * degree_of(net) * magnitude(net, f);
-  if (noise * (glm::length(t.a) + glm::length(t.b)) <= 1e-11 * size && size > shortest && size < longest) {
+  if (noise * (glm::length(t.a) + glm::length(t.b)) <= accurate * size && size > shortest && size < longest) {
     return n / size;
   }
   const double scale = spread(net, t.point);
   if (scale == 0.0) return dvec3(0.0);
   const dvec3 relative = relative_cross(t, scale);
   if (glm::length(relative) > singular) return glm::normalize(relative);
+  const double error = cross_error(net, u, v, f, t);
+  const dvec3 crossed =
+      error < infinity
+          ? glm::normalize(glm::cross(t.a / largest_component(t.a), t.b / largest_component(t.b)))
+          : dvec3(0.0);
+  if (error <= accurate) return crossed;
+  // Beside a singular point the polynomial's terms do not cancel. With very unequal weights its coefficients
+  // may be noise all the same; then it contradicts the cross product.
   const NormalPolynomial polynomial = normal_directions(net);
-  const dvec3 limit = std::visit([&](const auto& p) { return value_inside(p, u, v); }, polynomial);
-  return unit_or_zero(f.value.w < 0.0 ? -limit : limit);
+  const dvec3 value =
+      unit_or_zero(std::visit([&](const auto& p) { return value_or_limit(p, u, v); }, polynomial));
+  const dvec3 limit = f.value.w < 0.0 ? -value : value;
+  return glm::distance(limit, crossed) > 8.0 * error ? crossed : limit;
 }
 
 dvec3 unit_normal(const Net& net, double u, double v) { return unit_normal(net, u, v, net_first(net, u, v)); }
 
 Curvature curvature(const Net& net, double u, double v) {
-  const Tangents t = tangents(net_first(net, u, v));
+  const FirstOrder<dvec4> first = net_first(net, u, v);
+  const Tangents t = tangents(first);
   const double scale = spread(net, t.point);
-  if (!(glm::length(relative_cross(t, scale)) > singular)) {
+  if (!(glm::length(relative_cross(t, scale)) > singular) &&
+      !(cross_error(net, u, v, first, t) <= accurate)) {
     constexpr double step = 1e-4;
     if (std::holds_alternative<TensorNet>(net)) {
       u = std::clamp(u, step, 1.0 - step);

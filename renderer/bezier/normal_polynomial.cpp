@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -11,12 +12,6 @@ namespace rondure {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-double largest_norm(const std::vector<dvec4>& points) {
-  double largest = 0.0;
-  for (const dvec4& p : points) largest = std::max(largest, glm::length(p));
-  return largest;
-}
 
 double largest_coordinate(const std::vector<dvec4>& points) {
   dvec3 largest(0.0);
@@ -81,10 +76,12 @@ Framed framed(const Net& given) {
 }
 
 // A coefficient sums products of three control points; its rounding error stays below some tens of times that
-// of a point. What is smaller carries no direction.
-void flush_noise(std::vector<dvec3>& normals, double bound) {
-  for (dvec3& n : normals) {
-    if (!(glm::length(n) > bound)) n = dvec3(0.0);
+// of those products, whose sizes `terms` sums. What is smaller carries no direction.
+template <class Normals, class Terms>
+void flush_noise(Normals& normals, const Terms& terms, double error) {
+  for (std::size_t k = 0; k < normals.coefficients.size(); ++k) {
+    if (!(glm::length(normals.coefficients[k]) > 64.0 * error * terms.coefficients[k]))
+      normals.coefficients[k] = {};
   }
 }
 
@@ -97,31 +94,6 @@ TensorPolynomial<dvec4> corner_net(const TensorNet& net, int a, int b) {
   return sub;
 }
 
-// N = m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the wedge
-// product of the sub-nets F_ab.
-TensorPolynomial<dvec3> tensor_normals(const TensorNet& net, double error) {
-  if (net.m < 1 || net.n < 1) return {};
-  const auto f00 = corner_net(net, 0, 0);
-  const auto f10 = corner_net(net, 1, 0);
-  const auto f01 = corner_net(net, 0, 1);
-  const auto f11 = corner_net(net, 1, 1);
-  const auto l1101 = multiply(f11, f01, join);
-  const TensorPolynomial<dvec3> at_corner[2][2] = {
-      {multiply(f00, multiply(f10, f01, join), join_plane), multiply(f00, l1101, join_plane)},
-      {multiply(f00, multiply(f10, f11, join), join_plane), multiply(f10, l1101, join_plane)}};
-  TensorPolynomial<dvec3> normals(3 * net.m - 2, 3 * net.n - 2);
-  for (int a = 0; a < 2; ++a) {
-    for (int b = 0; b < 2; ++b) {
-      TensorPolynomial<double> weight(1, 1);
-      weight.at(a, b) = static_cast<double>(net.m * net.n);
-      normals = add_scaled(std::move(normals), multiply(weight, at_corner[a][b]), 1.0);
-    }
-  }
-  const double size = largest_norm(net.points);
-  flush_noise(normals.coefficients, 64.0 * error * net.m * net.n * size * size * size);
-  return normals;
-}
-
 TrianglePolynomial<dvec4> corner_net(const TriangleNet& net, int a, int b) {
   TrianglePolynomial<dvec4> sub(net.n - 1);
   for (int i = 0; i < net.n; ++i) {
@@ -130,14 +102,60 @@ TrianglePolynomial<dvec4> corner_net(const TriangleNet& net, int a, int b) {
   return sub;
 }
 
+// The sizes of a sub-net's points, of which wedge products are no larger than the products.
+TensorPolynomial<double> sizes(const TensorPolynomial<dvec4>& net) {
+  TensorPolynomial<double> out(net.m, net.n);
+  for (std::size_t k = 0; k < net.coefficients.size(); ++k)
+    out.coefficients[k] = glm::length(net.coefficients[k]);
+  return out;
+}
+
+TrianglePolynomial<double> sizes(const TrianglePolynomial<dvec4>& net) {
+  TrianglePolynomial<double> out(net.n);
+  for (std::size_t k = 0; k < net.coefficients.size(); ++k)
+    out.coefficients[k] = glm::length(net.coefficients[k]);
+  return out;
+}
+
+// m n [(1-u)(1-v) T(00,10,01) + u(1-v) T(00,10,11) + (1-u)v T(00,11,01) + uv T(10,11,01)], T the product of
+// three sub-nets F_ab by `line` and `plane`.
+template <class Result, class Net, class LineOf, class PlaneOf>
+TensorPolynomial<Result> sum_at_corners(int m, int n, const Net (&f)[2][2], LineOf line, PlaneOf plane) {
+  const auto l1101 = multiply(f[1][1], f[0][1], line);
+  const TensorPolynomial<Result> at_corner[2][2] = {
+      {multiply(f[0][0], multiply(f[1][0], f[0][1], line), plane), multiply(f[0][0], l1101, plane)},
+      {multiply(f[0][0], multiply(f[1][0], f[1][1], line), plane), multiply(f[1][0], l1101, plane)}};
+  TensorPolynomial<Result> sum(3 * m - 2, 3 * n - 2);
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      TensorPolynomial<double> weight(1, 1);
+      weight.at(a, b) = static_cast<double>(m * n);
+      sum = add_scaled(std::move(sum), multiply(weight, at_corner[a][b]), 1.0);
+    }
+  }
+  return sum;
+}
+
+TensorPolynomial<dvec3> tensor_normals(const TensorNet& net, double error) {
+  if (net.m < 1 || net.n < 1) return {};
+  const TensorPolynomial<dvec4> f[2][2] = {{corner_net(net, 0, 0), corner_net(net, 0, 1)},
+                                           {corner_net(net, 1, 0), corner_net(net, 1, 1)}};
+  const TensorPolynomial<double> s[2][2] = {{sizes(f[0][0]), sizes(f[0][1])},
+                                            {sizes(f[1][0]), sizes(f[1][1])}};
+  TensorPolynomial<dvec3> normals = sum_at_corners<dvec3>(net.m, net.n, f, join, join_plane);
+  flush_noise(normals, sum_at_corners<double>(net.m, net.n, s, std::multiplies<>{}, std::multiplies<>{}),
+              error);
+  return normals;
+}
+
 TrianglePolynomial<dvec3> triangle_normals(const TriangleNet& net, double error) {
   if (net.n < 1) return {};
-  const auto lines = multiply(corner_net(net, 0, 1), corner_net(net, 0, 0), join);
-  TrianglePolynomial<dvec3> normals = multiply(corner_net(net, 1, 0), lines, join_plane);
+  const TrianglePolynomial<dvec4> f10 = corner_net(net, 1, 0), f01 = corner_net(net, 0, 1),
+                                  f00 = corner_net(net, 0, 0);
+  TrianglePolynomial<dvec3> normals = multiply(f10, multiply(f01, f00, join), join_plane);
+  flush_noise(normals, multiply(sizes(f10), multiply(sizes(f01), sizes(f00))), error);
   const double square = static_cast<double>(net.n * net.n);
   for (dvec3& n : normals.coefficients) n *= square;
-  const double size = largest_norm(net.points);
-  flush_noise(normals.coefficients, 64.0 * error * square * size * size * size);
   return normals;
 }
 

@@ -16,6 +16,7 @@
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
 #include "tests/reference_data.h"
+#include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -83,6 +84,46 @@ TEST_CASE("normals are right at and near the collapsed edge of the octant", "[be
   INFO(worst.text());
   REQUIRE(worst.failures() == 0);
   CHECK(angle(unit_normal(net, 0.3, 1.0), dvec3(0.0, 0.0, 1.0)) < 1e-15);
+}
+
+TEST_CASE("normals hold under very unequal weights", "[bezier][normal]") {
+  // Most of these surfaces lies within 10^-3 to 10^-6 of their domain's edge. The control points are rounded,
+  // which moves a normal by an epsilon times the ratio of the weights about it: up to some 10^6 here.
+  const std::pair<const char*, double> families[] = {
+      {R"({"type": "sphere_cap", "z_max": 0.999})", 1e-11},
+      {R"({"type": "sphere_cap", "z_max": 0.999999})", 1e-11},
+      {R"({"type": "sphere_cap", "middle_weight": 5000})", 1e-11},
+      {R"({"type": "sphere_cap", "z_max": 0.3, "middle_weight": 1e6})", 1e-8},
+      {R"({"type": "stereographic_patch", "x": [-1000, -1], "y": [-1e-3, 1e-3]})", 1e-9},
+      {R"({"type": "composed_patch", "of": {"type": "sphere_tiling", "topology": "cube"}, "domain": {"degree": [1, 1],
+          "net": [[[0.1, 0.1, 1], [1000, 9000, 10000]], [[9000, 1000, 10000], [0.9, 0.9, 1]]]}})",
+       1e-11},
+  };
+  NetMaker make(23);
+  WorstCase worst;
+  for (const auto& [text, tolerance] : families) {
+    const Surface surface = build_family(text);
+    const Net& net = surface.patches.at(0);
+    const auto near_an_end = [&] {
+      const double t = std::pow(10.0, make.uniform(-18.0, 0.0));
+      return make.uniform(0.0, 1.0) < 0.5 ? t : 1.0 - t;
+    };
+    for (int k = 0; k < 400; ++k) {
+      const bool inner = k % 2 == 0;
+      const double u = inner ? make.uniform(0.0, 1.0) : near_an_end();
+      const double v = inner ? make.uniform(0.0, 1.0) : near_an_end();
+      const double error = angle(unit_normal(net, u, v), net_point(net, u, v));
+      worst.add(error, tolerance,
+                [&] { return fmt::format("{} at ({:.17g}, {:.17g}): {}", text, u, v, error); });
+    }
+    for (int corner = 0; corner < 4; ++corner) {
+      const double u = corner % 2, v = corner / 2;
+      const double error = angle(unit_normal(net, u, v), net_point(net, u, v));
+      worst.add(error, tolerance, [&] { return fmt::format("{} at corner {}: {}", text, corner, error); });
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
 }
 
 TEST_CASE("limit normals survive an affine map and a change of scale", "[bezier][normal]") {
