@@ -19,7 +19,7 @@ struct Margin {
 std::vector<Margin> margins_of(const SphericalQuad& quad) {
   std::vector<Margin> margins;
   for (const SphereArc& arc : quad.arc) {
-    margins.push_back({arc.p, 0});
+    margins.push_back({arc.p, 1});  // the weight of the corner: positive away from the opposite of c
     // The plane of the circle, its normal on the region's side: the chord is to the left of the tangent.
     const lvec3 normal = glm::normalize(glm::cross(arc.start_tangent(), arc.q - arc.p));
     // The opposite of c lies outside the cap when normal . (-c) < normal . p.

@@ -17,7 +17,7 @@ constexpr long double tolerance = 1e-6L;
 
 constexpr long double least_weight = 1e-9L;
 
-std::string number(long double angle) { return fmt::format("{:.4g}", static_cast<double>(angle)); }
+std::string number(long double angle) { return fmt::format("{:.9g}", static_cast<double>(angle)); }
 
 using Part = QuadDefect::Part;
 

@@ -44,7 +44,7 @@ struct QuadDefect {
 std::optional<QuadDefect> defect_of(const QuadShape& shape, bool straight_corners);
 
 // The point of the sphere about which the projection is best: the least of the margins (of the corners from
-// 90 degrees away, of the point opposite from the circles within whose region-side caps it must not lie) is
+// the point opposite, of that point from the circles within whose region-side caps it must not lie) is
 // greatest. Of unit length.
 lvec3 best_centre(const SphericalQuad& quad);
 

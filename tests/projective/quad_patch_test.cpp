@@ -48,7 +48,7 @@ double least_margin(const SphericalQuad& quad, const lvec3& c) {
   for (const SphereArc& arc : quad.arc) {
     const lvec3 inside = (arc.p + 2.0L * arc.b + arc.q) / (2 + 2 * arc.w);
     const lvec3 normal = glm::normalize(glm::cross(inside - arc.p, arc.q - inside));
-    least = std::min({least, glm::dot(arc.p, c), glm::dot(normal, c) + glm::dot(normal, arc.p)});
+    least = std::min({least, 1 + glm::dot(arc.p, c), glm::dot(normal, c) + glm::dot(normal, arc.p)});
   }
   return static_cast<double>(least);
 }
@@ -160,6 +160,43 @@ TEST_CASE("convex quadrilaterals of great circles are regular about the best cen
   // In more than 100,000 trials, with arcs of small circles too, no weight was ever too small.
   CHECK(doubled == 0);
   CHECK(sphere.failures() == 0);
+}
+
+TEST_CASE("regions that are regular about some centre are so about the best one", "[projective]") {
+  // Images of convex quadrilaterals of arcs in the plane, from a few degrees wide to nearly the whole sphere.
+  NetMaker make(29);
+  int regions = 0, refused = 0;
+  std::string first;
+  for (const double radius : {0.1, 1.0, 2.0, 4.0, 10.0, 40.0}) {
+    for (int k = 0; k < 40; ++k) {
+      std::array<lvec3, 4> corner, bulge;
+      double at[4];
+      for (int j = 0; j < 4; ++j) at[j] = 1.5707963267948966 * (j + make.uniform(-0.3, 0.3));
+      const auto lifted = [](double x, double y) {
+        // From the plane z = -1 towards the north pole; seen from outside, so from below, y points the other
+        // way.
+        return direction(4 * x, -4 * y, x * x + y * y - 4);
+      };
+      for (std::size_t j = 0; j < 4; ++j)
+        corner[j] = lifted(radius * std::cos(at[j]), radius * std::sin(at[j]));
+      for (std::size_t j = 0; j < 4; ++j) {
+        // Between the chord's middle and the circle about the origin: no arc bends inward.
+        const double next = at[(j + 1) % 4] + (j == 3 ? 6.283185307179586 : 0.0), half = 0.5 * (next - at[j]);
+        const double reach = radius * (std::cos(half) + make.uniform(0.1, 0.8) * (1 - std::cos(half)));
+        bulge[j] = lifted(reach * std::cos(at[j] + half), reach * std::sin(at[j] + half));
+      }
+      SphericalQuad quad;
+      for (std::size_t j = 0; j < 4; ++j) quad.arc[j] = arc_through(corner[j], bulge[j], corner[(j + 1) % 4]);
+      if (defect_of(shape_of(quad, direction(0, 0, -1)), false)) continue;
+      ++regions;
+      if (const auto defect = defect_of(shape_of(quad, best_centre(quad)), false)) {
+        if (refused++ == 0) first = fmt::format("radius {}: {}", radius, defect->text);
+      }
+    }
+  }
+  INFO("first refused: " << first);
+  CHECK(regions > 200);
+  CHECK(refused == 0);
 }
 
 TEST_CASE("the planar Jacobian is the tabulated one", "[projective]") {
