@@ -198,9 +198,10 @@ void check_ray(const Case& c, const Tracer& tracer, Kind kind, bool compare, std
   }
 }
 
+constexpr long block = 2000;  // rays of one seed
+
 Tally check_case(const Case& c, Load load) {
   const Tracer tracer({{c.surface, c.solver}});
-  constexpr long block = 2000;
   const long random_blocks = load.random / block, blocks = random_blocks + load.aimed / block;
   return tbb::parallel_reduce(
       tbb::blocked_range<long>(0, blocks, 1), Tally{},
@@ -252,7 +253,11 @@ double effort() {
 }
 
 Load load(double random, double aimed) {
-  return {static_cast<long>(random * effort()), static_cast<long>(aimed * effort())};
+  // Whole blocks: a small part of a small load is not nothing.
+  const auto rays = [](double count) {
+    return block * static_cast<long>(std::ceil(count * effort() / block));
+  };
+  return {rays(random), rays(aimed)};
 }
 
 std::vector<std::pair<const char*, Surface>> closed_families() {

@@ -93,7 +93,8 @@ TEST_CASE("weights are positive where they can be", "[surfaces]") {
   for (const std::string& text :
        {R"({"type": "circular_quad", )" + latlong + "}", R"({"type": "circular_quad", )" + cube + "}",
         R"({"type": "circular_triangle", )" + octant + "}"}) {
-    for (const dvec4& p : points_of(build_family(text).patches.at(0))) negative += !(p.w > 0.0);
+    const Surface surface = build_family(text);
+    for (const dvec4& p : points_of(surface.patches.at(0))) negative += !(p.w > 0.0);
   }
   CHECK(negative == 0);
 }
