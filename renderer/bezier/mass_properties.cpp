@@ -21,7 +21,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double goal = 1e-13;
-constexpr std::size_t most_cells = 100000, fewest_most_cells = 8;
+constexpr std::size_t most_cells = 100000, most_cells_of_a_patch = 4000;
 
 dmat3 inertia_of(const dmat3& second) { return dmat3(second[0][0] + second[1][1] + second[2][2]) - second; }
 
@@ -108,7 +108,7 @@ MassProperties of_patches(const Surface& surface) {
   each.error = goal / static_cast<double>(std::max<std::size_t>(count, 1));
   each.extent = frame.extent > 0.0 ? frame.extent : 1.0;
   each.most_cells = static_cast<int>(
-      std::clamp<std::size_t>(most_cells / std::max<std::size_t>(count, 1), fewest_most_cells, 4000));
+      std::clamp<std::size_t>(most_cells / std::max<std::size_t>(count, 1), 1, most_cells_of_a_patch));
   std::vector<PatchIntegrals> parts(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
     for (std::size_t k = range.begin(); k < range.end(); ++k)
