@@ -17,9 +17,6 @@ std::string describe(const Value& value) {
     case Value::Kind::boolean:
       return value.boolean ? "true" : "false";
     case Value::Kind::number:
-      if (!value.integral && std::fabs(value.number) < 1e15 && value.number == std::floor(value.number)) {
-        return fmt::format("{:.1f}", value.number);  // so that 3.0 does not pass for an integer
-      }
       return fmt::format("{}", value.number);
     case Value::Kind::string:
       return fmt::format("\"{}\"", printable(value.string, 40));

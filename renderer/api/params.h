@@ -50,7 +50,7 @@ struct Value {
   Kind kind = Kind::null;
   bool boolean = false;
   double number = 0.0;
-  bool integral = false;  // written without fraction or exponent, and exact in `number`
+  bool integral = false;  // a whole number of at most 2^53, however written
   std::string string;
   std::vector<Value> items;
   std::vector<Member> members;  // in file order, keys unique

@@ -28,7 +28,10 @@ std::string printable(std::string_view text, std::size_t limit) {
   for (std::size_t i = 0; i < text.size(); ++characters) {
     if (characters == limit) return result + "...";
     const std::size_t length = utf8_length(text.substr(i));
-    const bool control = length == 0 || (length == 1 && (text[i] < ' ' || text[i] == 0x7F));
+    // U+0080 to U+009F steer some terminals too.
+    const bool high_control =
+        length == 2 && text[i] == '\xC2' && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    const bool control = length == 0 || high_control || (length == 1 && (text[i] < ' ' || text[i] == 0x7F));
     result += control ? std::string_view("?") : text.substr(i, length);
     i += length == 0 ? 1 : length;
   }

@@ -1,5 +1,6 @@
 #include "renderer/camera/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -18,15 +19,16 @@ double extent_of_fov(double degrees) { return 2.0 * std::tan(degrees * std::numb
 
 Camera look_at(Projection projection, const dvec3& origin, const dvec3& target, const dvec3& up) {
   const dvec3 view = target - origin;
-  const double distance = glm::length(view);
+  const double distance = std::hypot(view.x, view.y, view.z);
   if (!(distance > 0.0)) throw std::invalid_argument("the camera's origin and target coincide");
   Camera camera;
   camera.projection = projection;
   camera.origin = origin;
   camera.forward = view / distance;
-  const dvec3 right = glm::cross(camera.forward, up);
+  const double size = std::max({std::fabs(up.x), std::fabs(up.y), std::fabs(up.z)});
+  const dvec3 right = glm::cross(camera.forward, up / size);  // NaN where `up` is zero
   // A few ulps of rounding in the cross product of parallel vectors must not pass for a direction.
-  if (!(glm::length(right) > 1e-12 * glm::length(up))) {
+  if (!(glm::length(right) > 1e-12)) {
     throw std::invalid_argument("the camera's up is zero or parallel to its view");
   }
   camera.right = glm::normalize(right);

@@ -7,11 +7,15 @@
 
 namespace rondure {
 
+// Coordinates of a camera: beyond them squares of distances would leave the range of a double.
+constexpr double farthest = 1e100;
+
 Camera read_camera(Params& params) {
   const std::string type = params.choice("type", {"perspective", "orthographic"}, "perspective");
   const Projection projection = type == "perspective" ? Projection::perspective : Projection::orthographic;
-  const dvec3 origin = params.vec3("origin", dvec3(0, -4, 1));
-  const dvec3 target = params.vec3("target", dvec3(0, 0, 0));
+  const Range place = Range::closed(-farthest, farthest);
+  const dvec3 origin = params.vec3("origin", dvec3(0, -4, 1), place);
+  const dvec3 target = params.vec3("target", dvec3(0, 0, 0), place);
   const dvec3 up = params.vec3("up", dvec3(0, 0, 1));
   Camera camera;
   try {
@@ -32,8 +36,9 @@ Camera read_camera(Params& params) {
 }
 
 const std::vector<TypeDoc>& camera_docs() {
-  static const ParameterDoc origin{"origin", "point", "[0, -4, 1]", "where the camera is"};
-  static const ParameterDoc target{"target", "point", "[0, 0, 0]", "the point at the picture's centre"};
+  static const ParameterDoc origin{"origin", "point within 1e100", "[0, -4, 1]", "where the camera is"};
+  static const ParameterDoc target{"target", "point within 1e100", "[0, 0, 0]",
+                                   "the point at the picture's centre"};
   static const ParameterDoc up{"up", "vector", "[0, 0, 1]", "what is upward in the picture"};
   static const std::vector<TypeDoc> docs = {
       {"perspective",

@@ -129,6 +129,8 @@ bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
     const bool whole = !field.empty() && end == field.data() + field.size();
     if (whole && error == std::errc::result_out_of_range)
       fail(present, fmt::format("\"{}\" is out of a double's range", columns_[present]));
+    if (present == 0 && field == columns_[0])
+      fail(0, fmt::format("a header must name the columns in this order: {}", fmt::join(columns_, ",")));
     if (!whole || error != std::errc() || std::isnan(value))
       fail(present,
            fmt::format("\"{}\" must be a number, found \"{}\"", columns_[present], printable(field)));

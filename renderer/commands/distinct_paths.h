@@ -1,4 +1,4 @@
-// Files of one command must not overwrite one another.
+// Files of one command must not overwrite one another, nor what the command reads.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "renderer/scene/scene.h"
 
 namespace rondure {
 
@@ -27,16 +29,31 @@ inline bool same_file(const std::string& a, const std::string& b) {
   return !first.empty() && first == second;
 }
 
-// Throws std::runtime_error that names the first two roles of one file.
-inline void refuse_equal_paths(const std::vector<NamedPath>& paths) {
-  for (std::size_t j = 1; j < paths.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      if (same_file(paths[i].path, paths[j].path)) {
-        throw std::runtime_error(
-            fmt::format("{}: is {} and {} at once", paths[j].path, paths[i].role, paths[j].role));
-      }
-    }
+// What a scene is made of: its own file and those that it refers to.
+inline std::vector<NamedPath> input_paths(const Scene& scene) {
+  std::vector<NamedPath> paths = {{"the scene", scene.path}};
+  for (const std::string& file : scene.files) paths.push_back({"a file that the scene reads", file});
+  return paths;
+}
+
+// Throws std::runtime_error that names the roles of a file that is an output and something else too.
+inline void refuse_equal_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
+  const auto refuse_same = [](const NamedPath& a, const NamedPath& b) {
+    if (same_file(a.path, b.path))
+      throw std::runtime_error(fmt::format("{}: is {} and {} at once", b.path, a.role, b.role));
+  };
+  for (std::size_t j = 0; j < outputs.size(); ++j) {
+    for (const NamedPath& input : inputs) refuse_same(input, outputs[j]);
+    for (std::size_t i = 0; i < j; ++i) refuse_same(outputs[i], outputs[j]);
   }
+}
+
+// The same for a command from table to table; "-" is no file.
+inline void refuse_table_over_input(const Scene& scene, const std::string& table, const std::string& output) {
+  if (output == "-") return;
+  std::vector<NamedPath> inputs = input_paths(scene);
+  if (table != "-") inputs.push_back({"the input table", table});
+  refuse_equal_paths(inputs, {{"the output", output}});
 }
 
 }  // namespace rondure

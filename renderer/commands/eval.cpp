@@ -12,6 +12,7 @@
 #include "renderer/bezier/rational.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
+#include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/eval_direction.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/scene/scene_reader.h"
@@ -30,9 +31,11 @@ void append(std::string& out, const dvec3& p) {
 }
 
 void eval(const Registry& registry, const EvalOptions& options) {
-  if (options.at.empty() && options.directions.empty())
-    throw std::runtime_error("--at or --direction is required; see rondure eval --help");
+  if (options.at.empty() == options.directions.empty())
+    throw std::runtime_error("one of --at and --direction is required; see rondure eval --help");
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  refuse_table_over_input(scene, options.directions.empty() ? options.at : options.directions,
+                          options.output);
   if (!options.directions.empty()) return eval_directions(scene, options.directions, options.output);
   CsvReader reader(options.at, {"surface", "patch", "u", "v"}, 4);
   TextOutput output(options.output);
@@ -72,11 +75,9 @@ void add_eval(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("eval", "Evaluate a scene's patches at given parameters");
   auto options = std::make_shared<EvalOptions>();
   add_scene_options(*command, options->scene);
-  CLI::Option* at = command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input");
-  command
-      ->add_option("--direction", options->directions,
-                   "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input")
-      ->excludes(at);
+  command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input");
+  command->add_option("--direction", options->directions,
+                      "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input");
   command->add_option("-o,--output", options->output, "Table of values; - for standard output (the default)");
   run_when_chosen(*command, context, [&context, options] { eval(context.registry, *options); });
 }

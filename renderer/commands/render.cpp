@@ -134,11 +134,15 @@ void render(const CommandContext& context, Options options) {
   if (options.output.empty()) {
     options.output = std::filesystem::path(options.scene.path).stem().string() + ".exr";
   }
-  std::vector<NamedPath> paths = {{"the scene", options.scene.path}, {"the output", options.output}};
-  if (!options.png.empty()) paths.push_back({"the preview", options.png});
-  if (options.resume) paths.push_back({"the state to resume from", resume_path(options.output)});
-  refuse_equal_paths(paths);
+  for (const std::string& path : {options.output, options.png}) {
+    if (path == "-")
+      throw std::runtime_error("a picture does not go to standard output; name a file, or ./-");
+  }
   Scene scene = read(context, options);
+  std::vector<NamedPath> outputs = {{"the output", options.output}};
+  if (!options.png.empty()) outputs.push_back({"the preview", options.png});
+  if (options.resume) outputs.push_back({"the state to resume from", resume_path(options.output)});
+  refuse_equal_paths(input_paths(scene), outputs);
   Film film = make_film(scene, settings);
   check_writable(options.output);
   if (!options.png.empty()) {
@@ -174,9 +178,12 @@ void add_render(CLI::App& program, CommandContext& context) {
   auto options = std::make_shared<Options>();
   add_scene_options(*command, options->scene);
   add_sampling_options(*command, options->scene);
-  command->add_option("-o,--output", options->output,
-                      "OpenEXR file (the scene's name in this folder by default)");
-  command->add_option("--png", options->png, "Also write an 8-bit sRGB preview");
+  const CLI::Validator named([](const std::string& path) { return path.empty() ? "names no file" : ""; }, "");
+  command
+      ->add_option("-o,--output", options->output,
+                   "OpenEXR file (the scene's name in this folder by default)")
+      ->check(named);
+  command->add_option("--png", options->png, "Also write an 8-bit sRGB preview")->check(named);
   command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops");
   command
       ->add_option("--threads", options->threads,

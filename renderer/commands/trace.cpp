@@ -11,6 +11,7 @@
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
+#include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/scene/scene_reader.h"
@@ -52,6 +53,7 @@ void append_hit(std::string& out, std::size_t ray, const Hit& hit) {
 
 void trace(const Registry& registry, const TraceOptions& options) {
   Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  refuse_table_over_input(scene, options.rays, options.output);
   const Tracer tracer = tracer_of(scene);
   CsvReader reader(options.rays, {"ox", "oy", "oz", "dx", "dy", "dz", "tmin", "tmax"}, 6);
   TextOutput output(options.output);

@@ -280,8 +280,9 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     }
   }
   if (!(self.radius >= smallest_scene && self.radius <= largest_scene))
-    throw std::runtime_error(fmt::format("the scene's radius, {:.3g}, must be between {:g} and {:g}",
-                                         self.radius, smallest_scene, largest_scene));
+    throw std::runtime_error(fmt::format("the scene is too {}: its radius must be between {:g} and {:g}",
+                                         self.radius < smallest_scene ? "small" : "large", smallest_scene,
+                                         largest_scene));
   self.unit = std::ldexp(1.0, -std::ilogb(self.radius));
   for (std::vector<Box>& set : boxes)
     for (Box& box : set) box.low *= self.unit, box.high *= self.unit;

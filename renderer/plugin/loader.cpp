@@ -96,18 +96,15 @@ std::string installed_plugin_folder() {
 }
 
 void load_plugins(const std::vector<std::string>& paths, Registry& registry) {
-  std::set<std::string> earlier;  // names of the files loaded from the places before this one
+  std::set<std::string> loaded;  // names of files
   const auto load_place = [&](const std::vector<std::string>& place) {
-    std::set<std::string> here;
     for (const std::string& path : place) {
       for (const std::string& file : files_of(path)) {
         const std::string name = fs::path(file).filename().string();
-        if (earlier.contains(name)) continue;
+        if (!loaded.insert(name).second) continue;
         load_file(file, registry);
-        here.insert(name);
       }
     }
-    earlier.merge(here);
   };
 
   load_place(paths);

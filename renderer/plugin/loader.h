@@ -18,8 +18,8 @@ namespace rondure {
 void load_plugin(const std::string& path, Registry& registry);
 
 // Loads `paths` (from --plugin), then the entries of RONDURE_PLUGIN_PATH (files or folders, separated by
-// colons), then the install's plugin folder if there is one. As with PATH, a file in a later place is skipped
-// when one of the same name came from an earlier place.
+// colons), then the install's plugin folder if there is one. As with PATH, a file is skipped when one of the
+// same name came before it.
 void load_plugins(const std::vector<std::string>& paths, Registry& registry);
 
 // rondure/plugins beside the core library, wherever that is installed.

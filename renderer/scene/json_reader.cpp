@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -30,7 +31,9 @@ class TreeBuilder {
   }
   bool number_integer(std::int64_t n) { return number(static_cast<double>(n), n >= -exact && n <= exact); }
   bool number_unsigned(std::uint64_t n) { return number(static_cast<double>(n), n <= std::uint64_t{exact}); }
-  bool number_float(double x, const std::string&) { return number(x, false); }
+  bool number_float(double x, const std::string&) {
+    return number(x, x == std::floor(x) && std::fabs(x) <= static_cast<double>(exact));
+  }
   bool string(std::string& s) {
     Value& value = place(Value::Kind::string);
     value.string = std::move(s);

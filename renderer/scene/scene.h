@@ -31,6 +31,7 @@ struct SceneObject {
 struct Scene {
   std::string path;
   std::shared_ptr<const SourceText> source;  // for messages; null when the scene is made by hand
+  std::vector<std::string> files;            // that the scene refers to, by keys "file"
   std::uint64_t hash = 0;                    // of the file's bytes and of every override
   Camera camera;
   FilmSettings film;

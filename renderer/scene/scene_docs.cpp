@@ -70,7 +70,7 @@ const std::vector<TypeDoc>& scene_docs() {
       {"sampling",
        "How many samples, and which.",
        {{"spp", "integer in [1, 1073741824]", "64", "samples per pixel"},
-        {"seed", "integer in [0, 9007199254740992]", "1",
+        {"seed", "integer in [0, 9007199254740991]", "1",
          "the same seed gives the same picture, bit by bit"}}},
   };
   return docs;

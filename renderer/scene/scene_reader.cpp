@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 
@@ -25,9 +26,9 @@ std::uint64_t hash_bytes(std::uint64_t hash, const std::string& bytes) {
 SamplingSettings read_sampling(Params params) {
   SamplingSettings sampling;
   sampling.spp = static_cast<int>(params.integer("spp", sampling.spp, 1, 1 << 30));
-  constexpr std::int64_t exact = std::int64_t{1} << 53;
+  constexpr std::int64_t most = (std::int64_t{1} << 53) - 1;  // the next integers are not all doubles
   const auto seed = static_cast<std::int64_t>(sampling.seed);
-  sampling.seed = static_cast<std::uint64_t>(params.integer("seed", seed, 0, exact));
+  sampling.seed = static_cast<std::uint64_t>(params.integer("seed", seed, 0, most));
   params.finish();
   return sampling;
 }
@@ -129,6 +130,16 @@ void read_lights(Scene& scene, Params& root) {
   if (scene.lights.empty() && !glowing) scene.lights.emplace_back(ConstantLight{});
 }
 
+// Adds what the keys "file" of a scene beside `folder` name.
+void add_files(const Value& value, const std::filesystem::path& folder, std::vector<std::string>& files) {
+  for (const Value& item : value.items) add_files(item, folder, files);
+  for (const Value::Member& member : value.members) {
+    if (member.key == "file" && member.value.kind == Value::Kind::string)
+      files.push_back((folder / member.value.string).string());
+    add_files(member.value, folder, files);
+  }
+}
+
 Scene read_document(Document document, const std::string& path, const Registry& registry,
                     const SceneOverrides& overrides) {
   apply_overrides(document.root, overrides);
@@ -136,6 +147,7 @@ Scene read_document(Document document, const std::string& path, const Registry& 
   Scene scene;
   scene.path = path;
   scene.source = document.source;
+  add_files(document.root, std::filesystem::path(path).parent_path(), scene.files);
   scene.hash = hash_bytes(hash_bytes(0xCBF29CE484222325u, document.source->text), overrides_text(overrides));
   root.text("$schema", "");
   root.text("name", "");

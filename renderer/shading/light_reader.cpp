@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -25,6 +26,7 @@ EnvironmentLight read_environment(Params& params) {
   EnvironmentLight light;
   light.file = params.path("file");
   light.file_where = params.raw("file")->where;
+  if (std::filesystem::is_directory(light.file)) params.fail("file", "a folder, not a file: " + light.file);
   if (!std::filesystem::is_regular_file(light.file)) params.fail("file", "no such file: " + light.file);
   light.scale = params.color("scale", light.scale);
   // One number turns about z; three turn about x, then y, then z.
@@ -42,9 +44,9 @@ EnvironmentLight read_environment(Params& params) {
 DirectionalLight read_directional(Params& params) {
   DirectionalLight light;
   const dvec3 direction = params.vec3("direction", light.direction);
-  const double length = glm::length(direction);
-  if (!(length > 0.0) || !std::isfinite(length)) params.fail("direction", "must not be the zero vector");
-  light.direction = direction / length;
+  const double size = std::max({std::fabs(direction.x), std::fabs(direction.y), std::fabs(direction.z)});
+  if (size == 0.0) params.fail("direction", "\"direction\" must not be the zero vector");
+  light.direction = glm::normalize(direction / size);  // scaled first: its square may be out of range
   light.irradiance = params.color("irradiance", light.irradiance);
   return light;
 }

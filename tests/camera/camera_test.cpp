@@ -88,6 +88,16 @@ TEST_CASE("camera matrices take points on a ray back to its film point", "[camer
   CHECK(worst.failures() == 0);
 }
 
+TEST_CASE("vectors of any length give the same camera", "[camera]") {
+  const Camera plain = look_at(Projection::perspective, {0, -4, 1}, {0, 0, 0}, {0, 0, 1});
+  for (const double length : {1e-300, 1e-160, 1e160, 1e300}) {
+    const Camera scaled = look_at(Projection::perspective, {0, -4, 1}, {0, 0, 0}, {0, 0, length});
+    CHECK(glm::distance(scaled.right, plain.right) < 1e-15);
+  }
+  const Camera close = look_at(Projection::perspective, {0, -4e-200, 1e-200}, {0, 0, 0}, {0, 0, 1});
+  CHECK(glm::distance(close.forward, plain.forward) < 1e-15);
+}
+
 TEST_CASE("a camera that looks nowhere is refused", "[camera]") {
   CHECK_THROWS_WITH(look_at(Projection::perspective, {1, 2, 3}, {1, 2, 3}, {0, 0, 1}),
                     "the camera's origin and target coincide");

@@ -197,6 +197,27 @@ TEST_CASE("render refuses to write over its own files", "[commands]") {
   CHECK(names_in(folder) == std::set<std::string>{"ball.json", "link.json"});
 }
 
+TEST_CASE("render refuses to write over what the scene reads, and to standard output", "[commands]") {
+  const std::string folder = stage("render_inputs");
+  const std::string net =
+      R"({ "patches": [ { "degree": [1, 1], "net": [[[0,0,0,1],[0,1,0,1]],[[1,0,0,1],[1,1,0,1]]] } ] })";
+  write_text_file(folder + "/net.json", net);
+  write_text_file(folder + "/scene.json", R"({ "objects": [ { "type": "bezier", "file": "net.json" } ] })");
+  const auto error_of = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {"render", "scene.json", "--resolution", "2x2", "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProcessResult r = run_in(folder, all);
+    CHECK(r.exit_code == 1);
+    return r.err;
+  };
+  CHECK(error_of({"-o", "./net.json"}) ==
+        "rondure: error: ./net.json: is a file that the scene reads and the output at once\n");
+  CHECK(error_of({"-o", "-"}) ==
+        "rondure: error: a picture does not go to standard output; name a file, or ./-\n");
+  CHECK(error_of({"-o", ""}).find("names no file") != std::string::npos);
+  CHECK(read_text_file(folder + "/net.json") == net);
+}
+
 TEST_CASE("a render needs nobody to read its notes", "[commands]") {
   const std::string folder = stage("render_deaf");
   ProcessOptions options;

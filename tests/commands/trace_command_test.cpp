@@ -119,6 +119,20 @@ TEST_CASE("trace --all writes every hit in order of t", "[command]") {
   CHECK(number_of(fields_of(lines[9])[2]) == number_of(fields_of(lines[3])[2]));
 }
 
+TEST_CASE("trace refuses to write over what it reads", "[command]") {
+  const std::string folder = folder_with("trace_over_inputs");
+  write_text_file(folder + "/rays.csv", "0,0,3,0,0,-1\n");
+  const std::string scene = read_text_file(folder + "/scene.json");
+  for (const auto& [output, role] :
+       {std::pair("scene.json", "the scene"), std::pair("rays.csv", "the input table")}) {
+    const ProcessResult result = trace(folder, {"--rays", "rays.csv", "-o", output});
+    CHECK(result.exit_code == 1);
+    CHECK(result.err == fmt::format("rondure: error: {}: is {} and the output at once\n", output, role));
+  }
+  CHECK(read_text_file(folder + "/scene.json") == scene);
+  CHECK(read_text_file(folder + "/rays.csv") == "0,0,3,0,0,-1\n");
+}
+
 TEST_CASE("trace points at what is wrong with a table", "[command]") {
   const std::string folder = folder_with("trace_errors");
   struct Case {

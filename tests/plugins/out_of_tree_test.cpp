@@ -104,6 +104,9 @@ void check_search_order(const ThirdParty& made) {
   CHECK(shows(run_process({program, "list"}), "paraboloid"));
   CHECK(shows(run_process({program, "list", "--plugin", made.plugins + "/paraboloid.so"}), "paraboloid"));
   std::filesystem::remove(installed);
+  CHECK(shows(run_process({program, "list", "--plugin", made.plugins + "/paraboloid.so", "--plugin",
+                           made.plugins + "/paraboloid.so"}),
+              "paraboloid"));
 
   const ProcessResult refused = run_process({program, "list", "--plugin", made.plugins + "/no_entry.so"});
   CHECK(refused.exit_code == 1);

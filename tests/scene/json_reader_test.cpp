@@ -39,7 +39,7 @@ TEST_CASE("JSON values and keys know their places", "[scene]") {
   CHECK(place(array.items[1].where) == "3:11");
   CHECK(place(array.items[2].where) == "3:20");
   CHECK(array.items[0].integral);
-  CHECK(!array.items[1].integral);
+  CHECK(array.items[1].integral);
   CHECK(array.items[1].number == -2500.0);
   CHECK(array.items[2].boolean);
   const Value* c = root.find("c");
@@ -55,11 +55,12 @@ TEST_CASE("JSON values and keys know their places", "[scene]") {
 
 TEST_CASE("integers are exact or are none", "[scene]") {
   const Value root =
-      read_json_text(
-          "s", "[9007199254740992, 9007199254740993, -9007199254740992, 1.0, 1e2, 18446744073709551615]")
+      read_json_text("s",
+                     "[9007199254740992, 9007199254740993, -9007199254740992, 1.0, 1e2, 1e16, 2.5, "
+                     "18446744073709551615]")
           .root;
-  const bool integral[] = {true, false, true, false, false, false};
-  for (std::size_t i = 0; i < 6; ++i) {
+  const bool integral[] = {true, false, true, true, true, false, false, false};
+  for (std::size_t i = 0; i < 8; ++i) {
     CAPTURE(i);
     CHECK(root.items[i].integral == integral[i]);
   }

@@ -53,7 +53,7 @@ TEST_CASE("nets that no solver can bound are shown at their object", "[scene]") 
 
 TEST_CASE("objects that are too large together are shown at their list", "[scene]") {
   CHECK(complaint("{\n  \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n}") ==
-        "test.json:2:14: the scene's radius, 1.73e+70, must be between 1e-60 and 1e+60\n"
+        "test.json:2:14: the scene is too large: its radius must be between 1e-60 and 1e+60\n"
         "  2 |   \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n"
         "    |              ^");
 }

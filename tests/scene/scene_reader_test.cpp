@@ -190,9 +190,11 @@ TEST_CASE("overrides that cannot be applied say which", "[scene]") {
       {"/objects/0/radius=big",
        "s.json: objects[0]: \"radius\" must be a number greater than 0, found \"big\" (set on the command "
        "line)"},
-      {"/objects/0/radius=[1",
-       "s.json: objects[0]: \"radius\" must be a number greater than 0, found \"[1\" (set on the command "
-       "line)"},
+      {"/objects/0/radius=[1", "--set:1:1: this array is never closed\n  1 | [1\n    | ^"},
+      {"/film={\"filter\":\"box\",\"filter\":\"tent\"}",
+       "--set:1:17: key \"filter\" stands twice in this object; the first is at line 1, column 2\n"
+       "  1 | {\"filter\":\"box\",\"filter\":\"tent\"}\n"
+       "    |                 ^"},
       {"/objects/0/solver=exact",
        "s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found \"exact\" "
        "(set on the "

@@ -43,7 +43,7 @@ TEST_CASE("schema and reader agree on every form and every limit", "[scene]") {
       {false, "/film", R"({"filter": {"width": 1}})"},
       {true, "/sampling", "{}"},
       {true, "/sampling", R"({"spp": 1, "seed": 0})"},
-      {true, "/sampling", R"({"spp": 1073741824, "seed": 9007199254740992})"},
+      {true, "/sampling", R"({"spp": 1073741824, "seed": 9007199254740991})"},
       {false, "/sampling", R"({"spp": 0})"},
       {false, "/sampling", R"({"spp": 1073741825})"},
       {false, "/sampling", R"({"seed": -1})"},
