@@ -14,6 +14,7 @@
 #include "renderer/intersect/embree_scene.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/intersect/settle.h"
+#include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
 
 namespace rondure {
@@ -82,23 +83,6 @@ bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, c
   return false;
 }
 
-// Slab test in double, with room for its own rounding and for roots that lie beside their leaf by rounding.
-bool meets_box(const Query& q, const Box& box) {
-  double enter = -INFINITY, leave = INFINITY;
-  for (int k = 0; k < 3; ++k) {
-    const double room =
-        1e-12 * (std::fabs(q.local.base[k]) + std::max(std::fabs(box.low[k]), std::fabs(box.high[k])) +
-                 (box.high[k] - box.low[k]));
-    double a = (box.low[k] - room - q.local.base[k]) * q.inverse_direction[k];
-    double b = (box.high[k] + room - q.local.base[k]) * q.inverse_direction[k];
-    if (a > b) std::swap(a, b);
-    // A NaN, from 0 times infinity, is passed over.
-    enter = a > enter ? a : enter;
-    leave = b < leave ? b : leave;
-  }
-  return enter <= leave;
-}
-
 bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far) noexcept {
   Query& q = *static_cast<Query*>(pointer);
   const CompiledSurface& compiled = (*q.compiled)[surface];
@@ -125,7 +109,7 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   const TracedSurface& traced = (*q.surfaces)[surface];
   // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
   // every ray by; in double the leaf's own box does not.
-  if (!meets_box(q, compiled.set.boxes[leaf_index])) return false;
+  if (!meets_box(q.local, q.inverse_direction, compiled.set.boxes[leaf_index])) return false;
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated

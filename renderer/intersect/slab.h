@@ -1,0 +1,31 @@
+// Whether a ray's line meets a box.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "renderer/bezier/box.h"
+#include "renderer/intersect/local_ray.h"
+
+namespace rondure {
+
+// `inverse_direction`: 1 / ray.direction. In double, with room for its own rounding and for roots that lie
+// beside their leaf by rounding.
+inline bool meets_box(const LocalRay& ray, const dvec3& inverse_direction, const Box& box) {
+  double enter = -INFINITY, leave = INFINITY;
+  for (int k = 0; k < 3; ++k) {
+    const double room =
+        1e-12 * (std::fabs(ray.base[k]) + std::max(std::fabs(box.low[k]), std::fabs(box.high[k])) +
+                 (box.high[k] - box.low[k]));
+    double a = (box.low[k] - room - ray.base[k]) * inverse_direction[k];
+    double b = (box.high[k] + room - ray.base[k]) * inverse_direction[k];
+    if (a > b) std::swap(a, b);
+    // A NaN, from 0 times infinity, is passed over.
+    enter = a > enter ? a : enter;
+    leave = b < leave ? b : leave;
+  }
+  return enter <= leave;
+}
+
+}  // namespace rondure
