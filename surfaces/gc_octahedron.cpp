@@ -31,7 +31,7 @@ Defaults hierarchy_points() {
 }
 
 // All eight patches are regular, which the paper thought impossible: it is proved by
-// renderer/continuity/exact_regularity.h.
+// renderer/complex/exact_regularity.h.
 Defaults rational_points() {
   return {at(0, -2, 1), at(1, 0, -2), at(-2, 1, 0), at(7, 0, -4), at(0, -4, 7),
           at(-4, 7, 0), at(2, 0, 0),  at(0, 2, 0),  at(0, 0, 2)};

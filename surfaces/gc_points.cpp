@@ -22,9 +22,9 @@ BlendPoint read_point(const Params& params, const Value& value, bool& weighted) 
   if (value.items.size() == 4) {
     weighted = true;
     if (!(value.items[3].number > 0.0)) params.fail(value, "the weight of a control point must be positive");
-    p.weight = Exact(value.items[3].number);
+    p.weight = exact_of(value.items[3].number);
   }
-  for (std::size_t k = 0; k < 3; ++k) p.point[k] = Exact(value.items[k].number) / p.weight;
+  for (std::size_t k = 0; k < 3; ++k) p.point[k] = exact_of(value.items[k].number) / p.weight;
   return p;
 }
 

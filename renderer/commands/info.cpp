@@ -14,6 +14,7 @@
 #include "renderer/bezier/mass_properties.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
+#include "renderer/commands/info_continuity.h"
 #include "renderer/commands/scene_options.h"
 #include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
@@ -28,6 +29,7 @@ struct InfoOptions {
   SceneOptions scene;
   bool json = false;
   bool no_mass = false;
+  bool no_continuity = false;
 };
 
 std::string kind_of(const Net& net) {
@@ -71,7 +73,7 @@ void add_mass(Json& out, const Surface& surface) {
                            : body_of(mass.shell, "shell", surface.origin);
 }
 
-Json describe_object(const SceneObject& object, bool with_mass) {
+Json describe_object(const SceneObject& object, const InfoOptions& options) {
   const Surface& surface = object.traced.surface;
   std::map<std::string, int> kinds;
   Box box;
@@ -96,7 +98,8 @@ Json describe_object(const SceneObject& object, bool with_mass) {
   if (!box.empty())
     out["bounds"] = {{"low", vector_of(box.low + surface.origin)},
                      {"high", vector_of(box.high + surface.origin)}};
-  if (with_mass) add_mass(out, surface);
+  if (!options.no_mass) add_mass(out, surface);
+  if (!options.no_continuity) add_continuity(out, surface);
   return out;
 }
 
@@ -159,6 +162,7 @@ std::string as_text(const Json& info) {
                          b[1].get<double>(), b[2].get<double>());
     }
     if (object.contains("area")) out += mass_text(object);
+    out += continuity_text(object);
   }
   const Json& total = info["total"];
   out += fmt::format("  {} objects, {} patches, {} leaves, {:.1f} kB\n", total["objects"].get<std::size_t>(),
@@ -174,7 +178,7 @@ void print_info(const Registry& registry, const InfoOptions& options) {
   Json info = {{"scene", scene.path}, {"hash", fmt::format("{:016x}", scene.hash)}};
   info["objects"] = Json::array();
   for (const SceneObject& object : scene.objects) {
-    info["objects"].push_back(describe_object(object, !options.no_mass));
+    info["objects"].push_back(describe_object(object, options));
   }
   info["materials"] = scene.materials.size();
   info["lights"] = scene.lights.size();
@@ -197,10 +201,13 @@ void print_info(const Registry& registry, const InfoOptions& options) {
 
 void add_info(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand(
-      "info", "Tell what a scene holds: patches, degrees, weights, bounds, area, volume, inertia, memory");
+      "info",
+      "Tell what a scene holds: patches, degrees, weights, bounds, area, volume, inertia, continuity, "
+      "regularity, memory");
   auto options = std::make_shared<InfoOptions>();
   add_scene_options(*command, options->scene);
   command->add_flag("--no-mass", options->no_mass, "Leave out area, volume, centroid and inertia");
+  command->add_flag("--no-continuity", options->no_continuity, "Leave out how patches meet and regularity");
   command->add_flag("--json", options->json, "Print JSON");
   run_when_chosen(*command, context, [&context, options] { print_info(context.registry, *options); });
 }

@@ -11,4 +11,7 @@ using Exact = boost::multiprecision::cpp_rational;
 // The nearest double, or next to it.
 inline double rounded(const Exact& x) { return x.convert_to<double>(); }
 
+// Exactly the number, which must be finite.
+Exact exact_of(double x);
+
 }  // namespace rondure

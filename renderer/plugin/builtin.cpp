@@ -12,6 +12,7 @@ void register_builtins(Registry& registry) {
       register_circular_triangle,
       register_composed_patch,
       register_curve,
+      register_gc_complex,
       register_gc_octahedron,
       register_iss,
       register_projected_net,

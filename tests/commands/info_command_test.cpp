@@ -71,4 +71,29 @@ TEST_CASE("info without --json is text, and the mass may be left out", "[command
   CHECK(info(folder, {"--no-mass", "--json"}).out.find("inertia") == std::string::npos);
 }
 
+TEST_CASE("info tells how patches meet and where they are singular", "[command][continuity]") {
+  const std::string folder = folder_with("info_continuity", R"({ "objects": [
+    { "type": "gc_octahedron", "control_points": { "h6": [-2, 1, 0], "h5": [0, 0, 0], "h7": [1, -2, -1] } },
+    { "type": "gc_octahedron", "basis": "rational" }, { "type": "sphere" } ] })");
+  const json objects = json::parse(info(folder, {"--json", "--no-mass"}).out)["objects"];
+  CHECK(objects[0]["continuity"]["seams"] == 12);
+  CHECK(objects[0]["continuity"]["open_sides"] == 0);
+  CHECK(objects[0]["continuity"]["tangent_degrees"]["worst"].get<double>() < 1e-10);
+  CHECK(objects[0]["regularity"]["verdict"] == "singular");
+  CHECK(objects[0]["regularity"]["singular"].size() == 2);
+  CHECK(objects[0]["regularity"]["least_certified"].is_null());
+  CHECK(objects[1]["regularity"]["verdict"] == "regular");
+  CHECK(objects[1]["regularity"]["least_certified"].get<double>() > 0.0);
+  CHECK_FALSE(objects[2].contains("regularity"));
+  const std::string text = info(folder, {"--no-mass"}).out;
+  CHECK(text.find("    12 seams, 0 open sides\n      tangent planes differ by at most ") !=
+        std::string::npos);
+  CHECK(text.find("    singular: Su x Sv vanishes at 2 points\n      patch 2 at (u, v) = (0.447842876926, "
+                  "0.142384548227), (") != std::string::npos);
+  CHECK(text.find("    regular: |Su x Sv| is at least ") != std::string::npos);
+  const std::string less = info(folder, {"--no-mass", "--no-continuity"}).out;
+  CHECK(less.find("seams") == std::string::npos);
+  CHECK(less.find("regular") == std::string::npos);
+}
+
 }  // namespace rondure

@@ -182,6 +182,48 @@ TEST_CASE("the cube and the tori have splines from degree 2 on", "[complex]") {
   }
 }
 
+TEST_CASE("parameters and denominators may be rational", "[complex]") {
+  // s meets mu = s / (2 - s); on the first square functions are over (2 - u)^n, so that all n + 1 functions
+  // of the second one's edge are met.
+  const EdgeFunction mu(linear(0, 1), linear(2, -1));
+  for (int n = 1; n <= 3; ++n) {
+    SurfaceComplex complex;
+    complex.sides = {4, 4};
+    complex.joins = {join_by_image({0, 0}, {1, 0}, mu, {EdgeFunction(linear(1, 1)), EdgeFunction(-1)})};
+    PolygonPolynomial factor{4, 1, {Exact(2), Exact(2), Exact(1), Exact(1)}};
+    PolygonPolynomial denominator = constant_polynomial(4, 1);
+    for (int k = 0; k < n; ++k) denominator = denominator * factor;
+    const SplineSpace space = spline_space(complex, n, {denominator, constant_polynomial(4, 1)});
+    check_all_gc1(complex, basis_of(complex, space));
+    // Of 2 (n + 1)^2 coefficients the first square's on the edge follow, and so do those next to it as far as
+    // 1 / (2 - u)^n lets the derivatives agree: those are 2 (n - 1) more than the common degree holds.
+    CHECK(space.dimension() >= static_cast<std::size_t>(2 * (n + 1) * (n + 1) - 2 * (n + 1) - 2));
+    SurfaceComplex same = complex;
+    same.exact = false;
+    CHECK(spline_space(same, n, {denominator, constant_polynomial(4, 1)}).dimension() == space.dimension());
+    CAPTURE(n, space.dimension());
+  }
+}
+
+TEST_CASE("a torus has functions of moderate size", "[complex]") {
+  const SurfaceComplex torus = torus_complex(4, 3);
+  const SplineSpace exact = spline_space(torus, 3), balanced = balanced_spline_space(torus, 3);
+  CAPTURE(balanced.solutions.gap);
+  CHECK(exact.dimension() == 108);
+  CHECK(balanced.dimension() == 108);
+  CHECK(largest_entry(exact.solutions) > 1e4);
+  CHECK(largest_entry(balanced.solutions) < 10.0);
+  CHECK(balanced.solutions.gap > 1e8);
+  const GcBasis basis = basis_of(torus, balanced);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < basis.functions.size(); k += 20) {
+    const GcDefect d = gc1_defect(torus, function_of(basis, k));
+    worst = std::max({worst, d.value, d.derivative});
+  }
+  // Entries are good to the smallest pivot's share of eps; derivatives multiply by 6.
+  CHECK(worst < 1e-12);
+}
+
 TEST_CASE("singular values find the exact dimensions, with a wide gap", "[complex]") {
   for (const SurfaceComplex& exact : {octahedron_complex(), cube_complex(), torus_complex(2, 2)}) {
     SurfaceComplex same = exact;

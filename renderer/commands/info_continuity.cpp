@@ -1,0 +1,134 @@
+#include "renderer/commands/info_continuity.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/continuity/continuity.h"
+#include "renderer/continuity/regularity.h"
+
+namespace rondure {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_of(const dvec3& p) { return {p.x, p.y, p.z}; }
+
+Json worst_of(const WorstAt& worst) {
+  if (worst.patch < 0) return nullptr;
+  return {{"worst", worst.value}, {"patches", {worst.patch, worst.other}}, {"at", point_of(worst.point)}};
+}
+
+Json singular_of(const SingularPoint& s) {
+  return {{"patch", s.patch}, {"uv", {s.u, s.v}}, {"at", point_of(s.point)}};
+}
+
+Json continuity_json(const Continuity& c) {
+  Json out = {{"seams", c.seams},
+              {"open_sides", c.open_sides},
+              {"collapsed_sides", c.collapsed_sides},
+              {"orientable", c.orientable},
+              {"gap", worst_of(c.gap)},
+              {"tangent_degrees", worst_of(c.tangent)},
+              {"mean_curvature_jump", worst_of(c.mean)},
+              {"gaussian_curvature_jump", worst_of(c.gaussian)},
+              {"vertices", c.vertices},
+              {"closed_vertices", c.closed_vertices}};
+  out["vertex_degrees"] = worst_of(c.vertex);
+  out["vertex_angle_sum_off"] = worst_of(c.vertex_sum);
+  return out;
+}
+
+Json regularity_json(const Regularity& r) {
+  static constexpr const char* names[] = {"regular", "singular", "undecided"};
+  Json out = {{"verdict", names[static_cast<int>(r.verdict)]}, {"pieces", r.pieces}};
+  out["patches_with_collapsed_sides"] = r.collapsed;
+  const bool bounded = r.verdict == Regularity::Verdict::regular && r.collapsed == 0;
+  out["least_certified"] = bounded ? Json(r.least) : Json(nullptr);
+  out["least_found"] = r.least_found;
+  out["least_at"] = singular_of(r.least_at);
+  out["largest_found"] = r.largest_found;
+  out["singular"] = Json::array();
+  for (const SingularPoint& s : r.singular) out["singular"].push_back(singular_of(s));
+  return out;
+}
+
+std::string where(const Json& worst) {
+  const Json& at = worst["at"];
+  return fmt::format("patches {} and {} at ({:.6g}, {:.6g}, {:.6g})", worst["patches"][0].get<int>(),
+                     worst["patches"][1].get<int>(), at[0].get<double>(), at[1].get<double>(),
+                     at[2].get<double>());
+}
+
+std::string seams_text(const Json& c) {
+  std::string out = fmt::format("    {} seams, {} open sides", c["seams"].get<std::size_t>(),
+                                c["open_sides"].get<std::size_t>());
+  if (c["collapsed_sides"].get<std::size_t>() > 0)
+    out += fmt::format(", {} sides collapsed to a point", c["collapsed_sides"].get<std::size_t>());
+  if (!c["orientable"].get<bool>()) out += ", not orientable";
+  out += "\n";
+  const auto line = [&](const char* key, const char* what, const char* unit) {
+    if (c[key].is_null()) return;
+    out += fmt::format("      {} by at most {:.2g}{}: {}\n", what, c[key]["worst"].get<double>(), unit,
+                       where(c[key]));
+  };
+  line("tangent_degrees", "tangent planes differ", " degrees");
+  line("mean_curvature_jump", "mean curvature jumps", "");
+  line("gaussian_curvature_jump", "Gaussian curvature jumps", "");
+  if (!c["vertex_degrees"].is_null()) {
+    out += fmt::format(
+        "      at {} closed vertices normals differ by at most {:.2g} degrees, angles are off a "
+        "full turn by {}\n",
+        c["closed_vertices"].get<std::size_t>(), c["vertex_degrees"]["worst"].get<double>(),
+        c["vertex_angle_sum_off"].is_null()
+            ? "what is not known"
+            : fmt::format("{:.2g} degrees", c["vertex_angle_sum_off"]["worst"].get<double>()));
+  }
+  return out;
+}
+
+std::string regularity_text(const Json& r) {
+  const std::string verdict = r["verdict"].get<std::string>();
+  std::string out;
+  if (verdict == "regular" && !r["least_certified"].is_null()) {
+    out = fmt::format(
+        "    regular: |Su x Sv| is at least {:.3g}, proved on {} pieces; least found {:.3g} in "
+        "patch {}, largest {:.3g}\n",
+        r["least_certified"].get<double>(), r["pieces"].get<long>(), r["least_found"].get<double>(),
+        r["least_at"]["patch"].get<int>(), r["largest_found"].get<double>());
+  } else if (verdict == "regular") {
+    out = fmt::format(
+        "    regular but for the sides where all normals vanish, of {} patches: proved on {} "
+        "pieces\n",
+        r["patches_with_collapsed_sides"].get<int>(), r["pieces"].get<long>());
+  } else if (verdict == "singular") {
+    out = fmt::format("    singular: Su x Sv vanishes at {} points{}\n", r["singular"].size(),
+                      r["singular"].size() == 16 ? " or more" : "");
+    for (const Json& s : r["singular"]) {
+      const Json& at = s["at"];
+      out += fmt::format("      patch {} at (u, v) = ({:.12g}, {:.12g}), ({:.6g}, {:.6g}, {:.6g})\n",
+                         s["patch"].get<int>(), s["uv"][0].get<double>(), s["uv"][1].get<double>(),
+                         at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+    }
+  } else {
+    out = fmt::format(
+        "    regular or not is undecided: |Su x Sv| falls to {:.3g} in patch {}, largest {:.3g}\n",
+        r["least_found"].get<double>(), r["least_at"]["patch"].get<int>(), r["largest_found"].get<double>());
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_continuity(nlohmann::ordered_json& object, const Surface& surface) {
+  if (surface.patches.empty()) return;
+  object["continuity"] = continuity_json(continuity_of(surface));
+  object["regularity"] = regularity_json(regularity_of(surface));
+}
+
+std::string continuity_text(const nlohmann::ordered_json& object) {
+  if (!object.contains("continuity")) return {};
+  return seams_text(object["continuity"]) + regularity_text(object["regularity"]);
+}
+
+}  // namespace rondure

@@ -1,0 +1,201 @@
+#include "renderer/continuity/seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "renderer/bezier/box.h"
+#include "renderer/bezier/rational.h"
+
+namespace rondure {
+namespace {
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+dvec2 corner_at(bool triangle, int corner) {
+  static constexpr double of_triangle[3][2] = {{1, 0}, {0, 1}, {0, 0}};
+  static constexpr double of_square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const double* p = triangle ? of_triangle[corner % 3] : of_square[corner % 4];
+  return {p[0], p[1]};
+}
+
+// A side with points of it, at equal steps of its parameter.
+struct Curve {
+  static constexpr int steps = 8;
+  PatchSide where;
+  const Net* net = nullptr;
+  dvec3 points[steps + 1];
+  int from = 0, to = 0;  // vertices
+  bool used = false;
+
+  dvec3 at(double t) const {
+    const dvec2 uv = side_point(*net, where.side, t);
+    return net_point(*net, uv.x, uv.y);
+  }
+  dvec3 slope(double t) const {
+    const SurfaceJet jet =
+        surface_jet(*net, side_point(*net, where.side, t).x, side_point(*net, where.side, t).y);
+    const dvec2 d = side_point(*net, where.side, 1.0) - side_point(*net, where.side, 0.0);
+    return d.x * jet.du + d.y * jet.dv;
+  }
+};
+
+// The distance of a point from a curve, by Newton's method from a guess.
+double distance_from(const dvec3& p, const Curve& curve, double t) {
+  double best = glm::distance(curve.at(t), p);
+  for (int step = 0; step < 12 && best > 0.0; ++step) {
+    const dvec3 slope = curve.slope(t);
+    const double square = glm::dot(slope, slope);
+    if (!(square > 0.0)) break;
+    const double next = std::clamp(t + glm::dot(p - curve.at(t), slope) / square, 0.0, 1.0);
+    const double found = glm::distance(curve.at(next), p);
+    if (!(found < best)) break;
+    best = found, t = next;
+  }
+  return best;
+}
+
+bool same_curve(const Curve& a, const Curve& b, bool reversed, double tolerance) {
+  for (int k = 0; k <= Curve::steps; ++k) {
+    const int other = reversed ? Curve::steps - k : k;
+    if (glm::distance(a.points[k], b.points[other]) <= tolerance) continue;
+    const double guess = static_cast<double>(other) / Curve::steps;
+    if (k == 0 || k == Curve::steps || !(distance_from(a.points[k], b, guess) <= tolerance)) return false;
+  }
+  return true;
+}
+
+// Numbers for points, the same for points closer than the tolerance.
+std::vector<int> clustered(const std::vector<dvec3>& points, double tolerance) {
+  // A direction with nothing in common with the vertices of any model, to sort by.
+  const dvec3 along(0.53770812, 0.30195523, 0.78723041);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<double> key;
+  for (const dvec3& p : points) key.push_back(glm::dot(p, along));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
+  std::vector<int> number(points.size(), -1);
+  int count = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t p = order[i];
+    for (std::size_t j = i; j-- > 0 && key[p] - key[order[j]] <= tolerance && number[p] < 0;) {
+      if (glm::distance(points[p], points[order[j]]) <= tolerance) number[p] = number[order[j]];
+    }
+    if (number[p] < 0) number[p] = count++;
+  }
+  return number;
+}
+
+std::vector<Curve> curves_of(const std::vector<Net>& patches, double& size) {
+  std::vector<Curve> curves;
+  Box box;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    for (int side = 0; side < side_count(patches[k]); ++side) {
+      Curve c;
+      c.where = {static_cast<int>(k), side};
+      c.net = &patches[k];
+      for (int step = 0; step <= Curve::steps; ++step) {
+        c.points[step] = c.at(static_cast<double>(step) / Curve::steps);
+        box.add(c.points[step]);
+      }
+      curves.push_back(c);
+    }
+  }
+  size = box.empty() ? 0.0 : glm::length(box.high - box.low);
+  return curves;
+}
+
+void orient(const std::vector<Net>& patches, Seams& out) {
+  out.turned.assign(patches.size(), false);
+  std::vector<std::vector<std::pair<std::size_t, bool>>> next(patches.size());
+  for (const Seam& seam : out.seams) {
+    next[index(seam.a.patch)].emplace_back(index(seam.b.patch), !seam.reversed);
+    next[index(seam.b.patch)].emplace_back(index(seam.a.patch), !seam.reversed);
+  }
+  std::vector<bool> reached(patches.size(), false);
+  for (std::size_t first = 0; first < patches.size(); ++first) {
+    if (reached[first]) continue;
+    reached[first] = true;
+    std::vector<std::size_t> front{first};
+    while (!front.empty()) {
+      const std::size_t p = front.back();
+      front.pop_back();
+      for (const auto& [q, differ] : next[p]) {
+        if (reached[q]) {
+          if (out.turned[q] != (out.turned[p] != differ)) out.orientable = false;
+          continue;
+        }
+        reached[q] = true;
+        out.turned[q] = out.turned[p] != differ;
+        front.push_back(q);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int side_count(const Net& net) { return std::holds_alternative<TriangleNet>(net) ? 3 : 4; }
+
+dvec2 side_point(const Net& net, int side, double t) {
+  const bool triangle = std::holds_alternative<TriangleNet>(net);
+  return (1.0 - t) * corner_at(triangle, side) + t * corner_at(triangle, side + 1);
+}
+
+Seams find_seams(const std::vector<Net>& patches) {
+  Seams out;
+  double size = 0.0;
+  std::vector<Curve> curves = curves_of(patches, size);
+  const double tolerance = 0x1p-30 * size;
+  std::vector<dvec3> starts;
+  for (const Curve& c : curves) starts.push_back(c.points[0]);
+  const std::vector<int> vertex = clustered(starts, tolerance);
+  std::map<std::pair<int, int>, std::vector<std::size_t>> by_ends;
+  std::size_t first = 0;  // of the patch
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    Curve& c = curves[k];
+    if (c.where.side == 0) first = k;
+    const int count = side_count(*c.net);
+    c.from = vertex[k];
+    c.to = vertex[first + index((c.where.side + 1) % count)];
+    const bool collapsed = std::all_of(std::begin(c.points), std::end(c.points), [&](const dvec3& p) {
+      return glm::distance(p, c.points[0]) <= tolerance;
+    });
+    if (collapsed) {
+      out.collapsed.push_back(c.where);
+      c.used = true;
+    } else {
+      by_ends[std::minmax(c.from, c.to)].push_back(k);
+    }
+  }
+  for (const auto& entry : by_ends) {
+    const std::vector<std::size_t>& list = entry.second;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      Curve& a = curves[list[i]];
+      for (std::size_t j = i + 1; j < list.size() && !a.used; ++j) {
+        Curve& b = curves[list[j]];
+        if (b.used) continue;
+        const bool reversed = a.from == b.to && same_curve(a, b, true, tolerance);
+        if (!reversed && !(a.from == b.from && same_curve(a, b, false, tolerance))) continue;
+        out.seams.push_back({a.where, b.where, reversed});
+        a.used = b.used = true;
+      }
+    }
+  }
+  const int vertices = vertex.empty() ? 0 : *std::max_element(vertex.begin(), vertex.end()) + 1;
+  out.vertices.resize(index(vertices));
+  for (SeamVertex& v : out.vertices) v.closed = true;
+  for (const Curve& c : curves) {
+    out.vertices[index(c.from)].corners.push_back(c.where);
+    if (c.used) continue;
+    out.open.push_back(c.where);
+    out.vertices[index(c.from)].closed = out.vertices[index(c.to)].closed = false;
+  }
+  orient(patches, out);
+  return out;
+}
+
+}  // namespace rondure

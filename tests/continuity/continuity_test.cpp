@@ -1,0 +1,143 @@
+// How patches meet, on surfaces where it is known.
+#include "renderer/continuity/continuity.h"
+
+#include <glm/geometric.hpp>
+
+#include "renderer/bezier/transform.h"
+#include "tests/catch.h"
+#include "tests/surfaces/build_family.h"
+
+namespace rondure {
+namespace {
+
+// Flat, with the corners 00, 10, 11, 01.
+TensorNet bilinear(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
+  TensorNet net(1, 1);
+  net.at(0, 0) = dvec4(a, 1), net.at(1, 0) = dvec4(b, 1), net.at(1, 1) = dvec4(c, 1),
+            net.at(0, 1) = dvec4(d, 1);
+  return net;
+}
+
+Surface of(std::vector<Net> nets) {
+  Surface surface;
+  surface.patches = std::move(nets);
+  return surface;
+}
+
+}  // namespace
+
+TEST_CASE("a roof's ridge has the angle between its planes", "[continuity]") {
+  // 30 degrees down on either side.
+  const double s = 0.5, c = std::sqrt(0.75);
+  const TensorNet left = bilinear({0, 0, 0}, {0, 1, 0}, {-c, 1, -s}, {-c, 0, -s});
+  const TensorNet right = bilinear({0, 1, 0}, {0, 0, 0}, {c, 0, -s}, {c, 1, -s});
+  for (const bool turned : {false, true}) {
+    const Net second = turned ? reversed(right) : Net(right);
+    const Continuity roof = continuity_of(of({left, second}));
+    CHECK(roof.seams == 1);
+    CHECK(roof.open_sides == 6);
+    CHECK(roof.vertices == 6);
+    CHECK(roof.closed_vertices == 0);
+    CHECK(roof.orientable);
+    CHECK(roof.tangent.value == Approx(60.0).epsilon(1e-12));
+    CHECK(roof.mean.value == 0.0);
+    CHECK(roof.vertex.patch == -1);
+  }
+  // Folded onto itself.
+  const TensorNet above = bilinear({0, 1, 0}, {0, 0, 0}, {-c, 0, -s}, {-c, 1, -s});
+  TensorNet apart = above;
+  apart.at(1, 1).z += 1e-3, apart.at(0, 1).z += 1e-3;
+  CHECK(continuity_of(of({left, apart})).tangent.value == Approx(180.0).epsilon(1e-3));
+}
+
+TEST_CASE("a cube's corners lack 90 degrees of a full turn", "[continuity]") {
+  std::vector<Net> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const auto corner = [&](double u, double v) {
+        dvec3 p(0.0);
+        p[axis] = side;
+        p[(axis + 1) % 3] = side == 1 ? u : v;
+        p[(axis + 2) % 3] = side == 1 ? v : u;
+        return p;
+      };
+      faces.emplace_back(bilinear(corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)));
+    }
+  }
+  const Continuity c = continuity_of(of(faces));
+  CHECK(c.seams == 12);
+  CHECK(c.open_sides == 0);
+  CHECK(c.closed_vertices == 8);
+  CHECK(c.tangent.value == Approx(90.0));
+  CHECK(c.vertex.value == Approx(90.0));
+  CHECK(c.vertex_sum.value == Approx(90.0));
+}
+
+TEST_CASE("a cylinder's end in a half sphere: tangent planes agree, curvature jumps by 1/2", "[continuity]") {
+  // Radius 1: mean curvature -1/2 on the cylinder, -1 on the sphere; Gaussian 0 and 1.
+  const Surface cap = build_family(R"({"type": "sphere_octant", "octants": [0]})");
+  const double h = std::sqrt(0.5);
+  TensorNet wall(2, 1);
+  for (int j = 0; j <= 1; ++j) {
+    wall.at(0, j) = dvec4(1, 0, -j, 1);
+    wall.at(1, j) = dvec4(h, h, -h * j, h);
+    wall.at(2, j) = dvec4(0, 1, -j, 1);
+  }
+  Surface both = cap;
+  both.patches.emplace_back(wall);
+  const Continuity c = continuity_of(both);
+  REQUIRE(c.seams == 1);
+  CHECK(c.collapsed_sides == 1);
+  // Their parameters on the arc differ.
+  CHECK(c.gap.value < 1e-15);
+  CHECK(c.tangent.value < 1e-12);
+  CHECK(c.mean.value == Approx(0.5));
+  CHECK(c.gaussian.value == Approx(1.0));
+}
+
+TEST_CASE("a Moebius strip is not orientable", "[continuity]") {
+  // Three quadrilaterals in a ring with half a turn.
+  const dvec3 inner[4] = {{1, 0, -0.3}, {-0.5, 0.8, -0.3}, {-0.5, -0.8, -0.3}, {1, 0, 0.3}};
+  const dvec3 outer[4] = {{1, 0, 0.3}, {-0.5, 0.8, 0.3}, {-0.5, -0.8, 0.3}, {1, 0, -0.3}};
+  std::vector<Net> nets;
+  for (int k = 0; k < 3; ++k) nets.emplace_back(bilinear(inner[k], inner[k + 1], outer[k + 1], outer[k]));
+  const Continuity c = continuity_of(of(nets));
+  CHECK(c.seams == 3);
+  CHECK_FALSE(c.orientable);
+}
+
+TEST_CASE("the tilings of the sphere are smooth; the crystal is not", "[continuity]") {
+  for (const char* topology : {"cube", "octahedron_quads", "icosahedron_quads", "rhombicuboctahedron"}) {
+    const Surface sphere =
+        build_family(std::string(R"({"type": "sphere_tiling", "topology": ")") + topology + "\"}");
+    const Continuity c = continuity_of(sphere);
+    CAPTURE(topology);
+    CHECK(c.open_sides == 0);
+    CHECK(c.tangent.value < 1e-11);
+    CHECK(c.mean.value < 1e-9);
+    CHECK(c.vertex.value < 1e-11);
+  }
+  const Continuity crystal = continuity_of(build_family(
+      R"({"type": "iss", "degree": 2, "vertices": [[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1]],
+          "patches": [{"triangle": [0,2,4]}, {"triangle": [1,2,4]}]})"));
+  CHECK(crystal.seams == 1);
+  CHECK(crystal.tangent.value > 1.0);
+}
+
+TEST_CASE("Figure 3 (a) is curvature continuous, (b) is not (Vidunas 2005, Peters and Kobbelt 1997)",
+          "[continuity]") {
+  const Continuity a = continuity_of(build_family(R"({"type": "gc_octahedron"})"));
+  CHECK(a.seams == 12);
+  CHECK(a.closed_vertices == 6);
+  CHECK(a.tangent.value < 1e-12);
+  CHECK(a.vertex_sum.value < 1e-12);
+  // Of a surface of size 12, with curvatures of about 1/10.
+  CHECK(a.mean.value < 1e-14);
+  CHECK(a.gaussian.value < 1e-14);
+  const Continuity b =
+      continuity_of(build_family(R"({"type": "gc_octahedron", "control_points": {"h6": [-2, 1, 0]}})"));
+  CHECK(b.tangent.value < 1e-12);
+  CHECK(b.mean.value > 1e-3);
+}
+
+}  // namespace rondure
