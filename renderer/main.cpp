@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
   add_trace(program, context);
   add_eval(program, context);
   add_info(program, context);
+  add_export(program, context);
   add_validate(program, context);
   add_list(program, context);
   add_describe(program, context);

@@ -63,9 +63,10 @@ void register_stereographic_patch(Registry& registry) {
       "stereographic_patch",
       "a planar rectangle projected to the unit sphere from (0, 0, 1), biquadratic (Cobb 1988, section 4)",
       {{"x", "interval [low, high]", "[-1, 1]",
-        "extent of the rectangle along x, and along v; at most 1000 |1 - plane_z| from 0"},
+        "extent of the rectangle along x, and along v; at most 1000 |1 - plane_z| from 0. Reaching to r |1 - "
+        "plane_z|, the patch is off the sphere by up to some 0.2 r^2 ulps: the weights grow and cancel"},
        {"y", "interval [low, high]", "[-1, 1]", "extent along y, and along u"},
-       {"plane_z", "number other than 1", "-1",
+       {"plane_z", "number in [-10^6, 10^6] other than 1", "-1",
         "height of the rectangle's plane; moves parameters as a scale"}},
       build});
 }

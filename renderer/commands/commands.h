@@ -38,6 +38,7 @@ void add_render(CLI::App& program, CommandContext& context);
 void add_trace(CLI::App& program, CommandContext& context);
 void add_eval(CLI::App& program, CommandContext& context);
 void add_info(CLI::App& program, CommandContext& context);
+void add_export(CLI::App& program, CommandContext& context);
 void add_validate(CLI::App& program, CommandContext& context);
 void add_list(CLI::App& program, CommandContext& context);
 void add_describe(CLI::App& program, CommandContext& context);

@@ -30,7 +30,8 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{}, "A subcommand is required; see rondure --help"},
       {{"rendr"}, "unknown command \"rendr\"; did you mean \"render\"?"},
       {{"frobnicate", "x.json"},
-       "unknown command \"frobnicate\"; known: \"render\", \"trace\", \"eval\", \"info\", \"validate\", "
+       "unknown command \"frobnicate\"; known: \"render\", \"trace\", \"eval\", \"info\", \"export\", "
+       "\"validate\", "
        "\"list\", "
        "\"describe\""},
       {{"--plugn", "x"}, "unknown option \"--plugn\"; did you mean \"--plugin\"?"},
@@ -86,7 +87,7 @@ TEST_CASE("help and version go to standard output", "[commands]") {
   const ProcessResult help = run_rondure({"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
-  for (const char* command : {"render", "trace", "eval", "info", "validate", "list", "describe"}) {
+  for (const char* command : {"render", "trace", "eval", "info", "export", "validate", "list", "describe"}) {
     CAPTURE(command);
     CHECK(help.out.find(fmt::format("\n  {} ", command)) != std::string::npos);
     const ProcessResult one = run_rondure({command, "--help"});

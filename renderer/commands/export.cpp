@@ -1,0 +1,128 @@
+// rondure export: the control nets of a scene, as a scene of raw nets.
+//
+// Whatever families, constructions and transforms an object went through, what is written are the homogeneous
+// nets that rays meet, number by number: read back, they give the same bits. Other programs read them as
+// JSON.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "renderer/bezier/triangle_keys.h"
+#include "renderer/bezier/triangle_to_tensor.h"
+#include "renderer/commands/commands.h"
+#include "renderer/commands/csv.h"
+#include "renderer/commands/distinct_paths.h"
+#include "renderer/commands/scene_options.h"
+#include "renderer/scene/scene_reader.h"
+#include "renderer/scene/unknown_name.h"
+
+namespace rondure {
+namespace {
+
+struct ExportOptions {
+  SceneOptions scene;
+  std::string output = "-";
+  std::string form = "triangles";
+};
+
+std::string text_of(const dvec4& p) { return fmt::format("[{}, {}, {}, {}]", p.x, p.y, p.z, p.w); }
+
+std::string text_of(const TensorNet& net) {
+  std::string out = fmt::format(R"({{ "kind": "tensor", "degree": [{}, {}], "net": [)", net.m, net.n);
+  for (int i = 0; i <= net.m; ++i) {
+    out += i > 0 ? ", [" : "[";
+    for (int j = 0; j <= net.n; ++j) out += (j > 0 ? ", " : "") + text_of(net.at(i, j));
+    out += "]";
+  }
+  return out + "] }";
+}
+
+std::string text_of(const TriangleNet& net) {
+  std::string out = fmt::format(R"({{ "kind": "triangle", "degree": {}, "net": {{ )", net.n);
+  for (int i = 0; i <= net.n; ++i) {
+    for (int j = 0; j <= net.n - i; ++j)
+      out += fmt::format(R"({}"{}": {})", i + j > 0 ? ", " : "", triangle_key_name(net.n, i, j),
+                         text_of(net.at(i, j)));
+  }
+  return out + " } }";
+}
+
+// One patch, or the tensor-product patches that stand for a triangular one.
+std::vector<std::string> texts_of(const Net& net, const std::string& form) {
+  const auto* triangle = std::get_if<TriangleNet>(&net);
+  if (!triangle) return {text_of(std::get<TensorNet>(net))};
+  if (form == "degenerate") return {text_of(as_degenerate_tensor(*triangle))};
+  if (form == "triangles") return {text_of(*triangle)};
+  std::vector<std::string> parts;
+  for (const TensorNet& part : as_three_tensors(*triangle)) parts.push_back(text_of(part));
+  return parts;
+}
+
+std::string text_of(const dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
+
+// The closed form, as the unit sphere under a matrix.
+void write_ellipsoid(TextOutput& output, const dmat3& map, const dvec3& origin) {
+  output.write("\"type\": \"sphere\", \"transform\": [");
+  for (int r = 0; r < 3; ++r)
+    output.write(fmt::format("[{}, {}, {}, {}], ", map[0][r], map[1][r], map[2][r], origin[r]));
+  output.write("[0, 0, 0, 1]] }");
+}
+
+void write_object(TextOutput& output, const SceneObject& object, const std::string& form) {
+  const Surface& surface = object.traced.surface;
+  output.write(fmt::format("    {{ \"name\": {}, ", nlohmann::json(object.name).dump()));
+  if (surface.ellipsoid) return write_ellipsoid(output, *surface.ellipsoid, surface.origin);
+  output.write(fmt::format("\"type\": \"bezier\", \"closed\": {}, \"center\": {}, \"patches\": [",
+                           surface.closed, text_of(surface.origin)));
+  const char* separator = "\n";
+  for (const Net& net : surface.patches) {
+    for (const std::string& patch : texts_of(net, form)) {
+      output.write(separator + ("      " + patch));
+      separator = ",\n";
+    }
+  }
+  output.write(" ] }");
+}
+
+void export_nets(const Registry& registry, const ExportOptions& options) {
+  const std::vector<std::string> forms = {"triangles", "degenerate", "quadrilaterals"};
+  if (std::find(forms.begin(), forms.end(), options.form) == forms.end())
+    throw std::runtime_error("--form: " + unknown_name("form", options.form, forms));
+  const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
+  refuse_table_over_input(scene, "-", options.output);
+  TextOutput output(options.output);
+  output.write("{\n  \"objects\": [");
+  const char* separator = "\n";
+  for (const SceneObject& object : scene.objects) {
+    output.write(separator);
+    write_object(output, object, options.form);
+    separator = ",\n";
+  }
+  output.write("\n  ]\n}\n");
+  output.finish();
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("export", "Write the control nets of a scene as a scene of raw nets");
+  auto options = std::make_shared<ExportOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("-o,--output", options->output, "Scene file; - for standard output (the default)");
+  command
+      ->add_option(
+          "--form", options->form,
+          "Triangular patches as triangles (the default), as one degenerate tensor-product patch each, "
+          "or as three quadrilaterals: degenerate, quadrilaterals")
+      ->type_name("NAME");
+  run_when_chosen(*command, context, [&context, options] { export_nets(context.registry, *options); });
+}
+
+}  // namespace rondure
