@@ -101,10 +101,12 @@ void read_objects(Scene& scene, Params& root, const Registry& registry,
     }
     const SceneObject& object = scene.objects.emplace_back(std::move(parts[0]));
     if (object.material == default_material || !object.traced.surface.patches.empty()) continue;
-    if (scene.materials[static_cast<std::size_t>(object.material)].isolines) {
-      params.fail("material", fmt::format("\"{}\" has no patches, and so no isolines; take a tiling, such as "
+    const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (material.isolines || material.curvature) {
+      params.fail("material", fmt::format("\"{}\" has no patches, and so no {}; take a tiling, such as "
                                           "\"sphere_tiling\"",
-                                          printable(object.type)));
+                                          printable(object.type),
+                                          material.isolines ? "isolines" : "colours of curvature"));
     }
   }
   std::move(wires.begin(), wires.end(), std::back_inserter(scene.objects));

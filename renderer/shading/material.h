@@ -12,6 +12,7 @@
 
 #include "renderer/api/params.h"
 #include "renderer/api/type_doc.h"
+#include "renderer/shading/curvature_colors.h"
 #include "renderer/shading/isolines.h"
 
 namespace rondure {
@@ -43,6 +44,7 @@ struct Material {
   Scattering scattering = Diffuse{};
   dvec3 emission{0.0};  // radiance
   std::optional<Isolines> isolines{};
+  std::optional<CurvatureColors> curvature{};  // in place of a Diffuse albedo, except on isolines
 };
 
 struct ScatterSample {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "renderer/shading/material.h"
 
 namespace rondure {
@@ -12,6 +14,13 @@ const ParameterDoc isolines_doc{"isolines", "{ count, width, boundary_width, alb
                                 "parameter lines on patches: strips between lines (8), widths in scene units "
                                 "(0.01 and 0.02), ink (0.02)"};
 
+const ParameterDoc curvature_doc{
+    "curvature", "{ of, range }", "none",
+    "colours patches by curvature in place of albedo: of \"gaussian\" (default) or "
+    "\"mean\"; blue at the low end of range ([-1, 1]) and below, grey in its middle, "
+    "red at its high end and above; an outward sphere of radius r has Gaussian 1 / "
+    "r^2, mean -1 / r"};
+
 Isolines read_isolines(Params params) {
   Isolines lines;
   lines.count = static_cast<int>(params.integer("count", lines.count, 1, 1000));
@@ -20,6 +29,21 @@ Isolines read_isolines(Params params) {
   lines.albedo = params.color("albedo", lines.albedo, Range::closed(0.0, 1.0));
   params.finish();
   return lines;
+}
+
+CurvatureColors read_curvature(Params params) {
+  CurvatureColors colors;
+  const bool mean = params.choice("of", {"gaussian", "mean"}, "gaussian") == "mean";
+  colors.of = mean ? CurvatureColors::Kind::mean : CurvatureColors::Kind::gaussian;
+  const dvec2 range = params.vec2("range", {colors.low, colors.high});
+  if (!(range.x < range.y)) {
+    params.fail("range", fmt::format("\"range\" must be [low, high] with low < high, found [{}, {}]", range.x,
+                                     range.y));
+  }
+  colors.low = range.x;
+  colors.high = range.y;
+  params.finish();
+  return colors;
 }
 
 }  // namespace
@@ -31,6 +55,7 @@ Material read_material(Params& params) {
   const Range unit = Range::closed(0.0, 1.0);
   if (type == "diffuse") {
     material.scattering = Diffuse{params.color("albedo", Diffuse{}.albedo, unit)};
+    if (params.has("curvature")) material.curvature = read_curvature(params.object("curvature"));
   } else if (type == "mirror") {
     material.scattering = Mirror{params.color("reflectance", Mirror{}.reflectance, unit)};
   } else if (type == "dielectric") {
@@ -58,7 +83,8 @@ const std::vector<TypeDoc>& material_docs() {
        "Scatters equally in all directions (Lambert 1760), on both sides.",
        {{"albedo", "colour in [0, 1]", "0.5", "share of light that is scattered"},
         emission_doc,
-        isolines_doc}},
+        isolines_doc,
+        curvature_doc}},
       {"mirror",
        "Reflects in the one direction of the law of reflection, on both sides.",
        {{"reflectance", "colour in [0, 1]", "1", "share of light that is reflected"},

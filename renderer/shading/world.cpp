@@ -116,15 +116,22 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-const Material& World::material(const Hit& hit) const {
+Material World::material(const Hit& hit) const {
   const auto surface = static_cast<std::size_t>(hit.surface);
   const auto index = static_cast<std::size_t>(material_of_surface_[surface]);
   const Material& own = materials_[index];
-  if (!own.isolines) return own;
+  if (!own.isolines && !own.curvature) return own;
   const Surface& shape = tracer_->surfaces()[surface].surface;
   if (shape.patches.empty()) return own;
   const Net& net = shape.patches[static_cast<std::size_t>(hit.patch)];
-  return on_isoline(*own.isolines, net, hit.point - shape.origin, hit.u, hit.v) ? inks_[index] : own;
+  if (own.isolines && on_isoline(*own.isolines, net, hit.point - shape.origin, hit.u, hit.v))
+    return inks_[index];
+  Material here = own;
+  if (own.curvature) {
+    dvec3& shown = std::get<Diffuse>(here.scattering).albedo;
+    shown = curvature_color(*own.curvature, net, hit.u, hit.v, shown);
+  }
+  return here;
 }
 
 dvec3 World::emitted(const Hit& hit, const dvec3& out) const {

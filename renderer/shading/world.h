@@ -40,8 +40,9 @@ class World {
   World& operator=(World&&) noexcept;
 
   const Tracer& tracer() const { return *tracer_; }
-  // The material at the hit: that of its surface, or of a parameter line drawn there. Ask once a hit.
-  const Material& material(const Hit& hit) const;
+  // The material at the hit: that of its surface, coloured by curvature if it asks for that, or of a
+  // parameter line drawn there. Ask once a hit.
+  Material material(const Hit& hit) const;
 
   // Radiance that leaves the hit toward `out` (unit) by emission.
   dvec3 emitted(const Hit& hit, const dvec3& out) const;

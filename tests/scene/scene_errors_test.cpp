@@ -80,6 +80,12 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
        "\"material\":\"a\"}] }",
        "s.json:1:82: \"sphere\" has no patches, and so no isolines; take a tiling, such as "
        "\"sphere_tiling\""},
+      {"{ \"materials\": {\"a\": {\"curvature\": {}}}, \"objects\": [{\"type\":\"sphere\", "
+       "\"material\":\"a\"}] }",
+       "s.json:1:83: \"sphere\" has no patches, and so no colours of curvature; take a tiling, such as "
+       "\"sphere_tiling\""},
+      {"{ \"materials\": {\"a\": {\"curvature\": {\"range\": [1, 1]}}} }",
+       "s.json:1:46: \"range\" must be [low, high] with low < high, found [1, 1]"},
       {"{ \"objects\": [{\"type\":\"sphere\"}], \"lights\": [{\"type\":\"spot\"}] }",
        "s.json:1:54: \"type\" must be one of \"constant\", \"environment\", \"point\", \"directional\", "
        "found \"spot\""},
