@@ -18,6 +18,9 @@
 namespace rondure {
 namespace {
 
+// Only ratios of moduli count; beyond 10^8 the coordinates of a domain's corners cancel too many digits.
+constexpr double least_modulus = 1e-4;
+
 using Kind = Value::Kind;
 
 std::vector<dvec3> read_directions(Params& params) {
@@ -50,7 +53,9 @@ std::vector<dvec3> read_vertices(Params& params) {
                 fmt::format("\"moduli\" has {} numbers for {} vertices", moduli.size(), vertices.size()));
   }
   for (std::size_t k = 0; k < moduli.size(); ++k) {
-    if (!(moduli[k] > 0.0)) params.fail("moduli", "a modulus must be positive");
+    if (!(moduli[k] >= least_modulus && moduli[k] <= 1.0 / least_modulus))
+      params.fail("moduli",
+                  fmt::format("a modulus must be in [{:g}, {:g}]", least_modulus, 1.0 / least_modulus));
     vertices[k] = moduli[k] * glm::normalize(vertices[k]);
   }
   return vertices;

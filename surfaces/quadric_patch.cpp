@@ -2,10 +2,12 @@
 // or of its ruled counterpart (Dietz, Hoschek, Juettler 1993, section 2.3 and conclusion).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/api/registry.h"
 #include "renderer/bezier/bounds.h"
+#include "renderer/intersect/local_ray.h"
 #include "surfaces/families.h"
 #include "surfaces/preimage_reader.h"
 #include "surfaces/quadric_reader.h"
@@ -121,6 +123,15 @@ Surface between_sections(Params& params, const Quadric& quadric) {
   return surface;
 }
 
+// Whether a weight vanishes but for rounding: on a paraboloid weights touch zero without changing sign.
+bool comes_near_infinity(const Net& net) {
+  constexpr double furthest = 1e12;
+  const Box box = *bounds_of(net);
+  const double reach = std::max(largest(box.low), largest(box.high));
+  const dvec4& corner = points_of(net).front();
+  return !(reach * std::abs(corner.w) <= furthest * std::max(std::abs(corner.w), largest(dvec3(corner))));
+}
+
 Surface build(Params& params) {
   const Quadric quadric = read_quadric(params);
   const char* const sources[] = {"surface", "preimage", "rulings", "corners"};
@@ -140,7 +151,7 @@ Surface build(Params& params) {
                     : source == sources[2] ? between_rulings(params, quadric)
                                            : between_sections(params, quadric);
   for (std::size_t k = 0; k < surface.patches.size(); ++k) {
-    if (bounds_of(surface.patches[k])) continue;
+    if (bounds_of(surface.patches[k]) && !comes_near_infinity(surface.patches[k])) continue;
     params.fail(source, fmt::format("patch {} reaches infinity{}", k,
                                     quadric.kind == QuadricKind::two_sheets
                                         ? ": on a hyperboloid of two sheets it must stay on one side of z = 0"

@@ -175,13 +175,15 @@ class TubeMaker {
 
   void divide(const Section& from, const Section& to) {
     constexpr std::size_t most_sections = 50000;
-    if (sections_.size() > most_sections)
+    constexpr double shortest = 0x1p-40, longest_cusp = 1.0 / 16;  // of the parameter's interval
+    if (sections_.size() > most_sections || to.t - from.t < shortest)
       throw std::invalid_argument(
           "the curve winds too much, or its weights differ too much, for so thin a tube");
     const Section middle = section_at(curve_, 0.5 * (from.t + to.t));
     const double length =
         glm::distance(from.jet.point, middle.jet.point) + glm::distance(middle.jet.point, to.jet.point);
-    const bool small = !(length > tube_accuracy * radius_);
+    // Not of a long piece: a curve may return to where it was.
+    const bool small = to.t - from.t <= longest_cusp && !(length > tube_accuracy * radius_);
     if (small || error(from, middle, to) <= 0.8 * tube_accuracy) {
       if (small && !(error(from, middle, to) <= tube_accuracy)) skipped_.push_back(sections_.size() - 1);
       sections_.push_back(to);

@@ -48,14 +48,14 @@ Interpolation interpolate(const std::vector<lvec3>& points, const std::vector<lo
   out.condition = solution.condition;
   for (std::size_t k = 0; k <= n; ++k)
     out.preimage.push_back(to_point(Spinor{solution.vector[k], solution.vector[n + 1 + k]}));
+  // Against the largest control point: where all that count at a parameter vanish, they do so but for
+  // rounding.
+  long double size = 0;
+  for (const lvec4& y : out.preimage) size = std::max(size, glm::length(y));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::vector<long double> b = basis(n, parameters[i]);
     lvec4 value(0);
-    long double size = 0;
-    for (std::size_t k = 0; k <= n; ++k) {
-      value += b[k] * out.preimage[k];
-      size += std::abs(b[k]) * glm::length(out.preimage[k]);
-    }
+    for (std::size_t k = 0; k <= n; ++k) value += b[k] * out.preimage[k];
     if (glm::length(value) <= 1e-12L * size) out.inaccessible.push_back(i);
   }
   return out;

@@ -81,7 +81,11 @@ class Shown {
     if (named("surface")) out.surface = surface_;
     const bool has_own = surface_.guides.find("control_surface") != surface_.guides.end();
     if (named("control_surface") && !has_own) add_control_surface(out.surface);
-    for (const std::string& part : show_.parts) add_wires(part);
+    try {
+      for (const std::string& part : show_.parts) add_wires(part);
+    } catch (const std::invalid_argument& error) {  // of a tube
+      params_.fail("wire", error.what());
+    }
     std::vector<Net> nets = wires_.nets();
     if (!nets.empty()) {
       out.wires.emplace();
@@ -120,11 +124,7 @@ class Shown {
 
   void add_curve(const RationalCurve& curve, double end_balls, const std::string& part) {
     if (!is_finite(curve)) params_.fail("show", fmt::format("a line of \"{}\" reaches infinity", part));
-    try {
-      wires_.add(curve, end_balls);
-    } catch (const std::invalid_argument& error) {
-      params_.fail("wire", error.what());
-    }
+    wires_.add(curve, end_balls);
     check_size();
   }
 

@@ -191,6 +191,8 @@ TEST_CASE("what cannot be shown is said", "[scene]") {
              Catch::Contains("unknown material \"rde\""));
   CHECK_THAT(says(R"({"type": "sphere_tiling", "show": ["isolines"], "wire": 1e-12})"),
              Catch::EndsWith("the tube is too thin for the size of the curve"));
+  CHECK_THAT(says(R"({"type": "sphere_tiling", "show": ["net"], "wire": 1e-12})"),
+             Catch::EndsWith("the tube is too thin for the size of the curve"));
   CHECK_THAT(says(R"({"type": "sphere_tiling", "topology": "icosahedron_quads", "show": ["isolines"],
                       "isolines": 100, "wire": 1e-4})"),
              Catch::Contains("more than 300000 patches"));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/bounds.h"
 #include "renderer/bezier/tube.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
@@ -120,6 +121,17 @@ TEST_CASE("curves on other quadrics", "[surfaces]") {
   CHECK(spline.guides.at("net").size() == 4);
 }
 
+TEST_CASE("a curve that comes back to where it was is drawn on the way", "[surfaces]") {
+  // x = 3 t (1 - t)^2 - 3 t^2 (1 - t): its start, middle and end are one point.
+  const Surface surface =
+      build_family(R"({"type": "curve", "net": [[0,0,0,1],[1,0,0,1],[-1,0,0,1],[0,0,0,1]]})");
+  Box box;
+  for (const Net& net : surface.patches) box.add(*bounds_of(net));
+  const double reach = std::sqrt(1.0 / 12.0);  // at t = 1/2 -+ 1/sqrt(12)
+  CHECK(box.high.x > reach);
+  CHECK(box.low.x < -reach);
+}
+
 TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
   const auto says = [](const std::string& rest) { return complaint(R"({"type": "curve", )" + rest + "}"); };
   CHECK(says(R"("tube": 1)") ==
@@ -159,6 +171,14 @@ TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
       says(
           R"("interpolate": [[1,0,0],[15,8,0],[3,4,0],[0,0,1],[0,1,0]], "parameters": [0, 0.25, 0.5, 0.75, 1])")
           .find("does not pass through point 3: such points are inaccessible") != std::string::npos);
+  for (const char* points :
+       {"[[1,0,0],[1,0,0],[0,1,0]]", "[[1,0,0],[0,1,0],[0,1,0]]", "[[1,0,0],[1,0,0],[1,0,0]]"}) {
+    CHECK(says(fmt::format(R"("interpolate": {})", points)).find("such points are inaccessible") !=
+          std::string::npos);
+  }
+  // So nearly infinite in its middle that parameters that are doubles cannot follow it.
+  CHECK(says(R"("net": [[0,0,0,1],[1,1,0,-0.999999],[2,0,0,1]])") ==
+        "the curve winds too much, or its weights differ too much, for so thin a tube");
   CHECK(says(R"("net": [[0,0,0,1],[1,0,0,1],[1,1,0,1]], "tube": 1e-12)") ==
         "the tube is too thin for the size of the curve");
   CHECK(says(R"("spline": [[1,0,0],[0,1,0],[0,2,0]])") == "this is the same point as another beside it");
