@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -65,6 +66,9 @@ void eval_directions(const Scene& scene, const std::string& table, const std::st
     for (std::size_t k = 1; k < 4; ++k)
       if (!std::isfinite(row[k])) reader.fail(k, "a direction must be finite");
     if (ray.direction == dvec3(0.0)) reader.fail(1, "the direction is zero");
+    // Only the direction counts; of one near the end of a double's range the distance would leave it.
+    const double largest = std::max({std::abs(row[1]), std::abs(row[2]), std::abs(row[3])});
+    for (int k = 0; k < 3; ++k) ray.direction[k] = std::ldexp(ray.direction[k], -std::ilogb(largest));
     const std::vector<Hit> hits = objects.at(reader, index).all(ray);
     const dvec3& d = ray.direction;
     const double length = std::hypot(d.x, d.y, d.z);

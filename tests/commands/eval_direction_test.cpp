@@ -107,16 +107,19 @@ TEST_CASE("eval --direction says where there is nothing, and where there is no f
         { "kind": "tensor", "degree": [1, 1], "net": [ [ [-1, -1, 3, 1], [-1, 1, 3, 1] ], [ [1, -1, 3, 1], [1, 1, 3, 1] ] ] } ] },
     { "type": "bezier", "patches": [
         { "kind": "tensor", "degree": [1, 1], "net": [ [ [-1, -1, 0, 1], [-1, 1, 0, 1] ], [ [1, -1, 0, 1], [1, 1, 0, 1] ] ] } ] } ] })");
-  const ProcessResult nothing = eval(folder, "0,-1,1,1\n1,0,0,-1\n2,1,0,0\n2,0.9,0,1\n");
+  const ProcessResult nothing =
+      eval(folder, "0,-1,1,1\n1,0,0,-1\n2,1,0,0\n2,0.9,0,1\n1,0,0,-1e-308\n1,0,0,-5e-324\n1,0,0,-1e308\n");
   INFO(nothing.err);
   const std::vector<std::string> lines = lines_of(nothing.out);
-  REQUIRE(lines.size() == 5);
+  REQUIRE(lines.size() == 8);
   CHECK(lines[1] == "0,-1,1,1,0,,,,,,,,,,");
   // From (0, 0, 2), where the object was moved.
   const std::vector<std::string> down = fields_of(lines[2]);
   CHECK(number_of(down.at(5)) == Approx(1.0).epsilon(1e-15));
   CHECK(glm::distance(vector_at(down, 6), dvec3(0, 0, 1)) < 1e-15);
   CHECK(lines[3] == "2,1,0,0,0,,,,,,,,,,");
+  for (std::size_t k = 5; k < 8; ++k)
+    CHECK(number_of(fields_of(lines[k]).at(5)) == Approx(1.0).epsilon(1e-15));
   const std::pair<const char*, const char*> cases[] = {
       {"5,1,0,0", "1:1: there is no surface 5: expected an index from 0 to 3"},
       {"0,0,0,0", "1:3: the direction is zero"},
