@@ -1,46 +1,69 @@
 // The sub-commands of the program, one file each.
 //
-// Every add_NAME describes its sub-command to CLI11 and hands its action to run_when_chosen. Actions run
-// after the whole command line is parsed and the plugins are loaded. They throw to fail: only main catches,
-// prints "rondure: error: ..." and returns 1. Results go to the named file or to standard output, all else to
-// standard error. For example:
-//
-//   void add_info(CLI::App& program, CommandContext& context) {
-//     CLI::App* command = program.add_subcommand("info", "Print what a scene holds");
-//     auto options = std::make_shared<InfoOptions>();
-//     add_scene_options(*command, options->scene);  // renderer/commands/scene_options.h
-//     command->add_flag("--json", options->json, "Print JSON");
-//     run_when_chosen(*command, context, [&context, options] { info(context.registry, *options); });
-//   }
+// For every sub-command NAME there are here the options that it takes, a struct filled from the command line,
+// and its action, run_NAME, the work of NAME.cpp. command_line.cpp alone knows CLI11, which takes longer to
+// compile than all of these together: there add_NAME describes the sub-command and its options, and says that
+// run_NAME is what to do. Actions run after the whole command line is read and the plugins are loaded. They
+// throw to fail: only main catches, prints "rondure: error: ..." and returns 1. Results go to the named file
+// or to standard output, all else to standard error.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "renderer/api/registry.h"
-
-namespace CLI {
-class App;
-}
+#include "renderer/scene/overrides.h"
 
 namespace rondure {
 
-struct CommandContext {
-  Registry registry;                 // built-ins and plugins, complete when the action runs
-  std::vector<std::string> plugins;  // paths given by --plugin
-  std::function<void()> action;      // of the chosen sub-command
+// What every sub-command with a scene shares: the file, --set and --solver, and when rendering more.
+struct SceneOptions {
+  std::string path;
+  SceneOverrides overrides;
 };
 
-void run_when_chosen(CLI::App& command, CommandContext& context, std::function<void()> action);
+struct RenderCommand {
+  SceneOptions scene;
+  std::string output;  // OpenEXR; the scene's name where it is empty
+  std::string png;     // none where it is empty
+  std::string crop;    // x0,y0,x1,y1, or empty
+  double exposure = 0.0;
+  int threads = 0;  // 0: all processors
+  bool resume = false, quiet = false;
+};
+void run_render(const Registry& registry, RenderCommand options);
 
-void add_render(CLI::App& program, CommandContext& context);
-void add_trace(CLI::App& program, CommandContext& context);
-void add_eval(CLI::App& program, CommandContext& context);
-void add_info(CLI::App& program, CommandContext& context);
-void add_export(CLI::App& program, CommandContext& context);
-void add_validate(CLI::App& program, CommandContext& context);
-void add_list(CLI::App& program, CommandContext& context);
-void add_describe(CLI::App& program, CommandContext& context);
+struct TraceCommand {
+  SceneOptions scene;
+  std::string rays;
+  std::string output = "-";
+  bool all = false;
+};
+void run_trace(const Registry& registry, const TraceCommand& options);
+
+struct EvalCommand {
+  SceneOptions scene;
+  std::string at, directions;  // tables, one of the two
+  std::string output = "-";
+};
+void run_eval(const Registry& registry, const EvalCommand& options);
+
+struct InfoCommand {
+  SceneOptions scene;
+  bool json = false;
+  bool no_mass = false;
+  bool no_continuity = false;
+};
+void run_info(const Registry& registry, const InfoCommand& options);
+
+struct ExportCommand {
+  SceneOptions scene;
+  std::string output = "-";
+  std::string form = "triangles";
+};
+void run_export(const Registry& registry, const ExportCommand& options);
+
+void run_validate(const Registry& registry, const SceneOptions& options);
+void run_list(const Registry& registry);
+void run_describe(const Registry& registry, const std::string& name);
 
 }  // namespace rondure

@@ -1,10 +1,6 @@
 // rondure describe: one type and its parameters.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <memory>
 #include <stdexcept>
 
 #include "renderer/commands/commands.h"
@@ -32,7 +28,9 @@ void print_type(const std::string& kind, const TypeDoc& type) {
   }
 }
 
-void describe(const Registry& registry, const std::string& name) {
+}  // namespace
+
+void run_describe(const Registry& registry, const std::string& name) {
   std::vector<std::string> names;
   bool found = false;
   for (const TypeGroup& group : all_types(registry)) {
@@ -45,16 +43,6 @@ void describe(const Registry& registry, const std::string& name) {
     }
   }
   if (!found) throw std::runtime_error(unknown_name("type", name, names));
-}
-
-}  // namespace
-
-void add_describe(CLI::App& program, CommandContext& context) {
-  CLI::App* command =
-      program.add_subcommand("describe", "Print what a type is and the parameters that it takes");
-  auto name = std::make_shared<std::string>();
-  command->add_option("type", *name, "A name that rondure list prints")->type_name("TYPE")->required();
-  run_when_chosen(*command, context, [&context, name] { describe(context.registry, *name); });
 }
 
 }  // namespace rondure

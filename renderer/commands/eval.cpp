@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <memory>
 #include <stdexcept>
 
 #include "renderer/bezier/rational.h"
@@ -14,23 +10,18 @@
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/eval_direction.h"
-#include "renderer/commands/scene_options.h"
 #include "renderer/scene/scene_reader.h"
 
 namespace rondure {
 namespace {
 
-struct EvalOptions {
-  SceneOptions scene;
-  std::string at, directions;  // one of the two
-  std::string output = "-";
-};
-
 void append(std::string& out, const dvec3& p) {
   fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z);
 }
 
-void eval(const Registry& registry, const EvalOptions& options) {
+}  // namespace
+
+void run_eval(const Registry& registry, const EvalCommand& options) {
   if (options.at.empty() == options.directions.empty())
     throw std::runtime_error("one of --at and --direction is required; see rondure eval --help");
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
@@ -67,19 +58,6 @@ void eval(const Registry& registry, const EvalOptions& options) {
     output.write(line);
   }
   output.finish();
-}
-
-}  // namespace
-
-void add_eval(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand("eval", "Evaluate a scene's patches at given parameters");
-  auto options = std::make_shared<EvalOptions>();
-  add_scene_options(*command, options->scene);
-  command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input");
-  command->add_option("--direction", options->directions,
-                      "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input");
-  command->add_option("-o,--output", options->output, "Table of values; - for standard output (the default)");
-  run_when_chosen(*command, context, [&context, options] { eval(context.registry, *options); });
 }
 
 }  // namespace rondure

@@ -5,11 +5,7 @@
 // JSON.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -18,18 +14,11 @@
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
-#include "renderer/commands/scene_options.h"
 #include "renderer/scene/scene_reader.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
 namespace {
-
-struct ExportOptions {
-  SceneOptions scene;
-  std::string output = "-";
-  std::string form = "triangles";
-};
 
 std::string text_of(const dvec4& p) { return fmt::format("[{}, {}, {}, {}]", p.x, p.y, p.z, p.w); }
 
@@ -90,7 +79,9 @@ void write_object(TextOutput& output, const SceneObject& object, const std::stri
   output.write(" ] }");
 }
 
-void export_nets(const Registry& registry, const ExportOptions& options) {
+}  // namespace
+
+void run_export(const Registry& registry, const ExportCommand& options) {
   const std::vector<std::string> forms = {"triangles", "degenerate", "quadrilaterals"};
   if (std::find(forms.begin(), forms.end(), options.form) == forms.end())
     throw std::runtime_error("--form: " + unknown_name("form", options.form, forms));
@@ -106,23 +97,6 @@ void export_nets(const Registry& registry, const ExportOptions& options) {
   }
   output.write("\n  ]\n}\n");
   output.finish();
-}
-
-}  // namespace
-
-void add_export(CLI::App& program, CommandContext& context) {
-  CLI::App* command =
-      program.add_subcommand("export", "Write the control nets of a scene as a scene of raw nets");
-  auto options = std::make_shared<ExportOptions>();
-  add_scene_options(*command, options->scene);
-  command->add_option("-o,--output", options->output, "Scene file; - for standard output (the default)");
-  command
-      ->add_option(
-          "--form", options->form,
-          "Triangular patches as triangles (the default), as one degenerate tensor-product patch each, "
-          "or as three quadrilaterals: degenerate, quadrilaterals")
-      ->type_name("NAME");
-  run_when_chosen(*command, context, [&context, options] { export_nets(context.registry, *options); });
 }
 
 }  // namespace rondure

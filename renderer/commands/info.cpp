@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cstdio>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "renderer/bezier/bounds.h"
@@ -15,7 +11,6 @@
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/info_continuity.h"
-#include "renderer/commands/scene_options.h"
 #include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/scene/scene_reader.h"
@@ -24,13 +19,6 @@ namespace rondure {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct InfoOptions {
-  SceneOptions scene;
-  bool json = false;
-  bool no_mass = false;
-  bool no_continuity = false;
-};
 
 std::string kind_of(const Net& net) {
   if (const auto* tensor = std::get_if<TensorNet>(&net))
@@ -73,7 +61,7 @@ void add_mass(Json& out, const Surface& surface) {
                            : body_of(mass.shell, "shell", surface.origin);
 }
 
-Json describe_object(const SceneObject& object, const InfoOptions& options) {
+Json describe_object(const SceneObject& object, const InfoCommand& options) {
   const Surface& surface = object.traced.surface;
   std::map<std::string, int> kinds;
   Box box;
@@ -173,7 +161,9 @@ std::string as_text(const Json& info) {
                            info["integrator"].get<std::string>(), info["spp"].get<int>());
 }
 
-void print_info(const Registry& registry, const InfoOptions& options) {
+}  // namespace
+
+void run_info(const Registry& registry, const InfoCommand& options) {
   Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
   Json info = {{"scene", scene.path}, {"hash", fmt::format("{:016x}", scene.hash)}};
   info["objects"] = Json::array();
@@ -195,21 +185,6 @@ void print_info(const Registry& registry, const InfoOptions& options) {
   output.write(options.json ? info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
                             : as_text(info));
   output.finish();
-}
-
-}  // namespace
-
-void add_info(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand(
-      "info",
-      "Tell what a scene holds: patches, degrees, weights, bounds, area, volume, inertia, continuity, "
-      "regularity, memory");
-  auto options = std::make_shared<InfoOptions>();
-  add_scene_options(*command, options->scene);
-  command->add_flag("--no-mass", options->no_mass, "Leave out area, volume, centroid and inertia");
-  command->add_flag("--no-continuity", options->no_continuity, "Leave out how patches meet and regularity");
-  command->add_flag("--json", options->json, "Print JSON");
-  run_when_chosen(*command, context, [&context, options] { print_info(context.registry, *options); });
 }
 
 }  // namespace rondure

@@ -1,18 +1,14 @@
 // rondure list: the names that a scene may use.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 
 #include "renderer/commands/commands.h"
 #include "renderer/scene/scene_docs.h"
 
 namespace rondure {
-namespace {
 
-void list(const Registry& registry) {
+void run_list(const Registry& registry) {
   const std::vector<TypeGroup> groups = all_types(registry);
   std::size_t width = 0;
   for (const TypeGroup& group : groups) {
@@ -22,14 +18,6 @@ void list(const Registry& registry) {
     fmt::print("{}{}:\n", &group == &groups.front() ? "" : "\n", group.kind);
     for (const TypeDoc& type : group.types) fmt::print("  {:{}}  {}\n", type.name, width, type.summary);
   }
-}
-
-}  // namespace
-
-void add_list(CLI::App& program, CommandContext& context) {
-  CLI::App* command =
-      program.add_subcommand("list", "List surfaces, integrators, materials, lights and the rest");
-  run_when_chosen(*command, context, [&context] { list(context.registry); });
 }
 
 }  // namespace rondure

@@ -4,20 +4,15 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/distinct_paths.h"
-#include "renderer/commands/scene_options.h"
 #include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/film/atomic_file.h"
@@ -32,15 +27,6 @@
 
 namespace rondure {
 namespace {
-
-struct Options {
-  SceneOptions scene;
-  std::string output, png;
-  std::string crop;
-  double exposure = 0.0;
-  int threads = 0;
-  bool resume = false, quiet = false;
-};
 
 constexpr std::int64_t most_samples = 1 << 30;
 constexpr double most_stops = 100.0;
@@ -68,10 +54,10 @@ std::optional<Window> read_crop(const std::string& text) {
 
 // Everything is read but the count of samples, which is no part of the scene's hash: a picture taken further
 // is of the same scene.
-Scene read(const CommandContext& context, const Options& options) {
+Scene read(const Registry& registry, const RenderCommand& options) {
   SceneOverrides overrides = options.scene.overrides;
   overrides.spp.reset();
-  Scene scene = read_scene(options.scene.path, context.registry, overrides);
+  Scene scene = read_scene(options.scene.path, registry, overrides);
   if (const auto spp = options.scene.overrides.spp) {
     if (*spp < 1 || *spp > most_samples) {
       throw std::runtime_error(fmt::format("--spp must be in [1, {}], not {}", most_samples, *spp));
@@ -83,7 +69,7 @@ Scene read(const CommandContext& context, const Options& options) {
 
 // One pass over the picture, or with --resume several and a state file, marked with `key`, beside the output.
 void render_film(Film& film, const Scene& scene, const World& world, RenderOptions render,
-                 const std::string& key, const Options& options) {
+                 const std::string& key, const RenderCommand& options) {
   const auto target = static_cast<std::uint32_t>(scene.sampling.spp);
   const std::string state = resume_path(options.output);
   if (options.resume && read_resume_state(state, key, film) && film.samples > target) {
@@ -118,11 +104,13 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
   } while (film.samples < target);
 }
 
-void note(const Options& options, const std::string& text) {
+void note(const RenderCommand& options, const std::string& text) {
   if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);  // fmt::print throws where nobody listens
 }
 
-void render(const CommandContext& context, Options options) {
+}  // namespace
+
+void run_render(const Registry& registry, RenderCommand options) {
   const auto start = std::chrono::steady_clock::now();
   RenderOptions settings;
   settings.threads = options.threads;
@@ -138,7 +126,7 @@ void render(const CommandContext& context, Options options) {
     if (path == "-")
       throw std::runtime_error("a picture does not go to standard output; name a file, or ./-");
   }
-  Scene scene = read(context, options);
+  Scene scene = read(registry, options);
   std::vector<NamedPath> outputs = {{"the output", options.output}};
   if (!options.png.empty()) outputs.push_back({"the preview", options.png});
   if (options.resume) outputs.push_back({"the state to resume from", resume_path(options.output)});
@@ -169,32 +157,6 @@ void render(const CommandContext& context, Options options) {
                     "the picture in {} is not to be trusted",
                     film.rejected, options.output));
   }
-}
-
-}  // namespace
-
-void add_render(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand("render", "Render a scene to an OpenEXR file");
-  auto options = std::make_shared<Options>();
-  add_scene_options(*command, options->scene);
-  add_sampling_options(*command, options->scene);
-  const CLI::Validator named([](const std::string& path) { return path.empty() ? "names no file" : ""; }, "");
-  command
-      ->add_option("-o,--output", options->output,
-                   "OpenEXR file (the scene's name in this folder by default)")
-      ->check(named);
-  command->add_option("--png", options->png, "Also write an 8-bit sRGB preview")->check(named);
-  command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops");
-  command
-      ->add_option("--threads", options->threads,
-                   "Threads (all processors by default); no effect on the picture")
-      ->check(CLI::Range(0, 4096));
-  command->add_option("--crop", options->crop,
-                      "x0,y0,x1,y1: render the pixels x0 <= x < x1, y0 <= y < y1 alone");
-  command->add_flag("--resume", options->resume,
-                    "Keep the samples in OUTPUT.state, and go on from there if it exists");
-  command->add_flag("--quiet", options->quiet, "No progress and no notes");
-  run_when_chosen(*command, context, [&context, options] { render(context, *options); });
 }
 
 }  // namespace rondure

@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cmath>
-#include <memory>
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
-#include "renderer/commands/scene_options.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/scene/scene_reader.h"
 
@@ -20,13 +15,6 @@ namespace rondure {
 namespace {
 
 constexpr std::size_t block = 1 << 14;  // rays that are traced together and then written in order
-
-struct TraceOptions {
-  SceneOptions scene;
-  std::string rays;
-  std::string output = "-";
-  bool all = false;
-};
 
 Ray read_ray(const CsvReader& reader, const std::vector<double>& row, std::size_t present) {
   for (std::size_t k = 0; k < 6; ++k)
@@ -51,7 +39,9 @@ void append_hit(std::string& out, std::size_t ray, const Hit& hit) {
                  hit.surface, hit.patch, hit.u, hit.v);
 }
 
-void trace(const Registry& registry, const TraceOptions& options) {
+}  // namespace
+
+void run_trace(const Registry& registry, const TraceCommand& options) {
   Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
   refuse_table_over_input(scene, options.rays, options.output);
   const Tracer tracer = tracer_of(scene);
@@ -78,19 +68,6 @@ void trace(const Registry& registry, const TraceOptions& options) {
     first += rays.size();
   }
   output.finish();
-}
-
-}  // namespace
-
-void add_trace(CLI::App& program, CommandContext& context) {
-  CLI::App* command = program.add_subcommand("trace", "Intersect rays from a table with a scene");
-  auto options = std::make_shared<TraceOptions>();
-  add_scene_options(*command, options->scene);
-  command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")
-      ->required();
-  command->add_option("-o,--output", options->output, "Table of hits; - for standard output (the default)");
-  command->add_flag("--all", options->all, "Every hit of each ray, in order of t, not the closest alone");
-  run_when_chosen(*command, context, [&context, options] { trace(context.registry, *options); });
 }
 
 }  // namespace rondure
