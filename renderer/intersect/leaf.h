@@ -1,7 +1,8 @@
-// Leaves: pieces of a patch small enough for Newton's method to be safe from their centre.
+// Leaves: pieces of a patch small enough for Newton's method to be safe from a good start.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -11,16 +12,35 @@
 
 namespace rondure {
 
-// Spreads hold over the leaf enlarged by this factor, which contains every Newton iterate of a root in the
-// leaf.
+// Bounds on derivatives hold over the leaf enlarged by this factor about its centre: a root that is found
+// there is the only one, even where the search overshoots the leaf.
 inline constexpr double leaf_enlargement = 1.35;
 
-// The surface linearised at the leaf's centre, and how far its derivatives stray from that over the enlarged
-// leaf. Local parameters (a, b) as in cell.h; (u, v) = corner + a edge_a + b edge_b on rectangles and
-// triangles alike.
+// How a leaf looks in its own frame (xi, eta, zeta): the affine one in which the surface, at the leaf's
+// centre, is (a, b, 0) to first order, a and b being the leaf's parameters (cell.h) less their values at the
+// centre.
+//
+// With N and w the homogeneous polynomials of the surface in that frame, w = 1 at the centre, a ray of slope
+// s = d(xi, eta) / d(zeta) that meets zeta = 0 in p0 meets the surface where
+//     N_xieta - s N_zeta - p0 w = 0. (1)
+// All bounds are infinite where the surface has no normal at the centre.
+struct LeafFrame {
+  dvec2 across[4];  // (xi, eta) = across[0] x + across[1] y + across[2] z + across[3]
+  dvec4 normal;     // zeta = normal . (x, y, z, 1), in units of the leaf's size
+
+  // Over the leaf, |N_xieta - (a, b)| componentwise, |N_zeta| and |w - 1|, with room for rounding.
+  float bound[2], bound_zeta, bound_weight;
+  // Over the enlarged leaf: the larger row sum of |d N_xieta - I|, the row sum of |d w|, and |d N_zeta|.
+  float slack, slack_weight, slack_zeta[2];
+
+  // The surface to second order: zeta = bend (xi^2, xi eta, eta^2), and (a, b) = (xi, eta) - turn (...).
+  float bend[3];
+  float turn[3][2];
+};
+
 struct Leaf {
-  dvec4 center, da, db;      // S and its derivatives, homogeneous
-  dvec4 spread_a, spread_b;  // |dS/da - da| and |dS/db - db|, componentwise
+  LeafFrame frame;
+  // (u, v) = corner + a edge_a + b edge_b, on rectangles and triangles alike.
   dvec2 corner, edge_a, edge_b;
   NetScale scale;  // bounds sum |P_ij| B_ij over the leaf: what evaluation errors are relative to
   std::int32_t patch = 0;

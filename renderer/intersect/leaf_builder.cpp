@@ -5,18 +5,15 @@
 #include <stdexcept>
 
 #include "renderer/bezier/rational.h"
-#include "renderer/intersect/leaf.h"
+#include "renderer/intersect/leaf_frame.h"
 
 namespace rondure {
 namespace {
 
-// Contraction of Newton's method for a ray along the normal. Oblique rays see the leaf's curvature as well,
-// and contract less; at 0.05 a tenth of the rays that hit a sphere are left undecided, at 0.1 a third, at
-// 0.025 few, for twice the leaves.
-constexpr double target_contraction = 0.05;
-// Where the parametrisation is so even that the first is small on the whole of a curved patch (central
-// projection of a plane, seen from that centre), this one tells. Elsewhere the first implies it.
-constexpr double oblique_contraction = 0.4;
+// How even a leaf is to be (leaf_frame.h). Half of either costs twice the leaves and their memory, which
+// outweighs the steps and searches that it saves; twice of either costs as many of these.
+constexpr double straight_target = 0.15;
+constexpr double oblique_target = 0.16;
 constexpr int weight_depth = 40;  // halvings after which a weight that is still not positive never will be
 
 RectangleCell enlarged(const RectangleCell& c) {
@@ -41,40 +38,6 @@ void place(const TriangleCell& c, Leaf& leaf) {
   leaf.corner = c.corner[2];
   leaf.edge_a = c.corner[0] - c.corner[2];
   leaf.edge_b = c.corner[1] - c.corner[2];
-}
-
-dvec4 abs_max(const dvec4& a, const dvec4& b) { return glm::max(a, glm::abs(b)); }
-
-// |inverse of J| . (spreads), largest row sum, for the ray through the leaf's centre along which both planes
-// lie.
-double contraction(const Leaf& leaf, const dvec4& p0, const dvec4& p1) {
-  const double a0 = glm::dot(p0, leaf.da), b0 = glm::dot(p0, leaf.db);
-  const double a1 = glm::dot(p1, leaf.da), b1 = glm::dot(p1, leaf.db);
-  const double s0 = glm::dot(glm::abs(p0), leaf.spread_a) + glm::dot(glm::abs(p0), leaf.spread_b);
-  const double s1 = glm::dot(glm::abs(p1), leaf.spread_a) + glm::dot(glm::abs(p1), leaf.spread_b);
-  const double in_a = std::fabs(b1) * s0 + std::fabs(b0) * s1, in_b = std::fabs(a1) * s0 + std::fabs(a0) * s1;
-  return std::max(in_a, in_b) / std::fabs(a0 * b1 - a1 * b0);
-}
-
-// Whether Newton's method contracts as it should for the ray along the normal, and somewhat for rays at 45
-// degrees to it; never where the surface has no normal.
-bool contracts(const Leaf& leaf) {
-  const dvec3 x = dvec3(leaf.center) / leaf.center.w;
-  const dvec3 xa = (dvec3(leaf.da) - x * leaf.da.w) / leaf.center.w,
-              xb = (dvec3(leaf.db) - x * leaf.db.w) / leaf.center.w;
-  const double length_a = glm::length(xa);
-  const dvec3 normal = glm::cross(xa, xb);
-  if (!(glm::length(normal) > 1e-9 * length_a * glm::length(xb)) || !(length_a > 0.0)) return false;
-  const dvec3 n = glm::normalize(normal), e0 = xa / length_a, e1 = glm::normalize(glm::cross(normal, xa));
-  const auto plane = [&](const dvec3& across) { return dvec4(across, -glm::dot(across, x)); };
-  if (!(contraction(leaf, plane(e0), plane(e1)) < target_contraction)) return false;
-  for (const double side : {-1.0, 1.0}) {
-    if (!(contraction(leaf, plane(glm::normalize(e0 + side * n)), plane(e1)) < oblique_contraction))
-      return false;
-    if (!(contraction(leaf, plane(e0), plane(glm::normalize(e1 + side * n))) < oblique_contraction))
-      return false;
-  }
-  return true;
 }
 
 template <class Shape>
@@ -104,11 +67,16 @@ class Builder {
     Leaf leaf;
     leaf.patch = patch_;
     place(cell, leaf);
-    linearise(cell, leaf);
-    const bool tame = positive && contracts(leaf);
+    const SecondOrder<dvec4> center = shape_.second(net, Shape::to_patch(cell, Shape::center()));
+    Evenness evenness;
+    if (positive) {
+      leaf.scale = scale_of(cell);
+      shape_.restrict_to(net, enlarged(cell), inner_.data());
+      evenness = set_frame(shape_, center, points_, inner_, leaf);
+    }
+    const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
     if (tame || (positive && depth >= depth_)) {
       some_tame_ = some_tame_ || tame;
-      leaf.scale = scale_of(cell);
       out_.leaves.push_back(leaf);
       out_.boxes.push_back(box);
       return;
@@ -121,7 +89,7 @@ class Builder {
     typename Shape::Cell low, high;
     int edge;
     if constexpr (std::is_same_v<Shape, TensorShape>)
-      edge = glm::length(size_a_) >= glm::length(size_b_) ? 0 : 1;
+      edge = longer_across_a(center, leaf) ? 0 : 1;
     else
       edge = Shape::longest_edge(cell);
     std::vector<dvec4> scratch(points_.size() * 2);
@@ -140,7 +108,6 @@ class Builder {
   LeafSet& out_;
   std::vector<dvec4> magnitudes_;  // |P_ij|, componentwise
   std::vector<dvec4> points_, inner_;
-  dvec3 size_a_{0.0}, size_b_{0.0};
   bool some_tame_ = false;
 
   NetScale scale_of(const typename Shape::Cell& cell) {
@@ -153,30 +120,11 @@ class Builder {
     return scale;
   }
 
-  void linearise(const typename Shape::Cell& cell, Leaf& leaf) {
-    const dvec2 middle = Shape::to_patch(cell, Shape::center());
-    const FirstOrder<dvec4> s = shape_.first(net_.data(), middle);
-    leaf.center = s.value;
-    leaf.da = leaf.edge_a.x * s.du + leaf.edge_a.y * s.dv;
-    leaf.db = leaf.edge_b.x * s.du + leaf.edge_b.y * s.dv;
-    leaf.spread_a = leaf.spread_b = dvec4(0.0);
+  // Whether the surface is longer along a than along b.
+  static bool longer_across_a(const SecondOrder<dvec4>& s, const Leaf& leaf) {
     const dvec3 x = dvec3(s.value) / s.value.w;
-    size_a_ = dvec3(leaf.da) - x * leaf.da.w, size_b_ = dvec3(leaf.db) - x * leaf.db.w;
-
-    std::vector<dvec4> wide(points_.size());
-    shape_.restrict_to(net_.data(), enlarged(cell), wide.data());
-    if (shape_.can_derive_a()) {
-      shape_.derive_a(wide.data(), inner_.data());
-      for (int k = 0; k < shape_.derived_a().size(); ++k)
-        leaf.spread_a =
-            abs_max(leaf.spread_a, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.da);
-    }
-    if (shape_.can_derive_b()) {
-      shape_.derive_b(wide.data(), inner_.data());
-      for (int k = 0; k < shape_.derived_b().size(); ++k)
-        leaf.spread_b =
-            abs_max(leaf.spread_b, inner_[static_cast<std::size_t>(k)] / leaf_enlargement - leaf.db);
-    }
+    return leaf.edge_a.x * glm::length(dvec3(s.du) - x * s.du.w) >=
+           leaf.edge_b.y * glm::length(dvec3(s.dv) - x * s.dv.w);
   }
 };
 

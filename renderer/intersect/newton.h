@@ -1,11 +1,22 @@
 // Newton's method on one leaf, with a proof of what it finds.
 //
-// With J the Jacobian of the projected pair at the leaf's centre and M >= |J^-1| |J(p) - J| over the enlarged
-// leaf (from the leaf's spreads), a root p* in the leaf satisfies |p* - p1| <= M |p*| for the first Newton
-// iterate p1. So p1 too far outside proves that there is no root; and if the row sums of M are below 1/3,
-// there is at most one, and full Newton steps from p1 stay in the enlarged leaf and converge to it (Krawczyk
-// 1969). Otherwise the ray grazes the leaf, or the leaf touches a singular point: undecided, and `clipping`
-// has to look.
+// In the leaf's frame (leaf.h) a ray is its slope s and the point p0 where it meets the plane zeta = 0, and
+// its roots are those of equation (1) there.
+//
+// None: a root p in the leaf satisfies |p - p0| <= bound + |s| bound_zeta + |p0| bound_weight, so that a p0
+// too far outside proves that there is none.
+//
+// One: for two points p and q of the enlarged leaf, the left sides of (1) differ by (A - s g^T)(p - q), where
+// A differs from I by at most e = slack + |p0| slack_weight in the maximum norm and |g| <= slack_zeta, which
+// are bounds over a convex set. As det(A - s g^T) = det A (1 - g^T A^-1 s) and |A^-1 s - s| <= |s| e / (1 -
+// e), that is regular, and there is one root at most, if e < 1 and
+//     |s| . slack_zeta + |s| (sum of slack_zeta) e / (1 - e) < 1,
+// the second |s| being the larger component. Where Newton's method ends in the enlarged leaf, in the leaf or
+// beside it, is then where the root is. The method starts from where the ray meets the leaf's osculating
+// paraboloid, so that one or two steps are usual.
+//
+// Otherwise the ray grazes the leaf, or the leaf touches a singular point: undecided, and `clipping` has to
+// look.
 #pragma once
 
 #include "renderer/intersect/leaf.h"
@@ -21,9 +32,24 @@ struct NewtonCounts {
   std::size_t undecided = 0;  // handed to clipping
 };
 
-// `root` is set, in the patch's parameters, when the verdict is `root`; rounding may have put it outside the
-// patch.
-NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error, Root& root,
-                             NewtonCounts& counts) noexcept;
+// A root in the patch's parameters, and the patch there.
+struct NewtonRoot {
+  Root root;
+  FirstOrder<dvec4> surface;
+};
+
+// `out` is set when the verdict is `root`; rounding may have put it outside the patch.
+NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error,
+                             NewtonRoot& out, NewtonCounts& counts) noexcept;
+
+// Instruction sets that the method is compiled for. The results are the same bits on all.
+enum class Instructions { baseline, avx2 };
+
+// Whether this machine has the set.
+bool has(Instructions set);
+
+// The same on one of them; the other takes the best that the machine has.
+NewtonVerdict newton_on_leaf(Instructions set, const Leaf& leaf, const Net& net, const LocalRay& ray,
+                             double error, NewtonRoot& out, NewtonCounts& counts) noexcept;
 
 }  // namespace rondure

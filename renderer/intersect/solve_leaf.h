@@ -15,8 +15,15 @@ struct SolverCounts {
 // The calling thread's counts, for benchmarks and tests.
 SolverCounts& thread_counts() noexcept;
 
-// Adds the roots of the ray on the leaf, settled, in no order. `newton` hands leaves that it cannot decide to
-// `clipping`.
+// Newton's method alone; a root is settled: on the patch, and on the ray.
+NewtonVerdict solve_by_newton(const Leaf& leaf, const Net& net, const LocalRay& ray, NewtonRoot& root,
+                              SolverCounts& counts) noexcept;
+
+// Adds the roots of the ray on the leaf that `clipping` finds, settled, in no order.
+void search_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, std::vector<Root>& roots,
+                 SolverCounts& counts) noexcept;
+
+// Either: `newton` hands leaves that it cannot decide to `clipping`.
 void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
                 std::vector<Root>& roots, SolverCounts& counts) noexcept;
 

@@ -13,9 +13,9 @@
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/embree_scene.h"
 #include "renderer/intersect/radial.h"
-#include "renderer/intersect/settle.h"
 #include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
+#include "renderer/intersect/surface_crossing.h"
 
 namespace rondure {
 namespace {
@@ -46,7 +46,8 @@ struct Query {
   LocalRay local{};
   dvec3 inverse_direction{0.0};
   Hit best{};
-  int best_sign = 0;
+  FirstOrder<dvec4> best_first;  // the patch at `best`
+  SolverCounts* counts;
   bool found = false;
   std::vector<Hit>* hits = nullptr;
   std::vector<int>* signs = nullptr;
@@ -57,30 +58,42 @@ bool nearer(const Hit& a, const Hit& b) {
   return a.surface != b.surface ? a.surface < b.surface : a.patch < b.patch;
 }
 
-// Takes one crossing into the query; `normal()` is the unit normal there, asked for hits that may be
-// reported. True when an occlusion query is settled.
+enum class Taken { no, noted, nearest, settled };
+
+// Takes one crossing into the query; `normal()` is the unit normal there, asked for when every hit counts.
+// `nearest`: it is the best so far, and its normal still to come. `settled`: an occlusion query is answered.
 template <class Normal>
-bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
-          const Crossing& c, float& far) {
+Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
+           const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = (*q.compiled)[surface].frame;
-  if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return false;
+  if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return Taken::no;
   q.found = true;
-  if (q.mode == Mode::any) return true;
+  if (q.mode == Mode::any) return Taken::settled;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
   if (q.mode == Mode::all) {
     hit.point = frame + point, hit.normal = normal();
     q.hits->push_back(hit);
     q.signs->push_back(c.sign);
-    return false;
+    return Taken::noted;
   }
-  if (!q.best || nearer(hit, q.best)) {
-    hit.point = frame + point, hit.normal = normal();
-    q.best = hit;
-    far = std::min(far, round_far((hit.t + hit.t_error - q.far_origin) / q.far_scale));
-  }
-  return false;
+  if (q.best && !nearer(hit, q.best)) return Taken::noted;
+  hit.point = frame + point;
+  q.best = hit;
+  far = std::min(far, round_far((hit.t + hit.t_error - q.far_origin) / q.far_scale));
+  return Taken::nearest;
+}
+
+// The same for a root on a leaf, `s` being the patch there. True when an occlusion query is answered.
+bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, const Root& root,
+               const FirstOrder<dvec4>& s, float& far) {
+  dvec3 point;
+  const Crossing c = cross_surface(leaf, net, q.local, root, s, point);
+  const auto normal = [&] { return unit_normal(net, root.u, root.v, s); };
+  const Taken taken = take(q, surface, leaf.patch, {root.u, root.v}, point, normal, c, far);
+  if (taken == Taken::nearest) q.best_first = s;
+  return taken == Taken::settled;
 }
 
 bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far) noexcept {
@@ -101,41 +114,35 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
       const Crossing c =
           make_crossing(q.local, hits[k].point, hits[k].normal, error, compiled.ellipsoid->extent, false);
       const auto normal = [&] { return hits[k].normal; };
-      if (take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far)) return true;
+      const Taken taken = take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far);
+      if (taken == Taken::settled) return true;
+      if (taken == Taken::nearest) q.best.normal = hits[k].normal;
     }
     return false;
   }
 
   const TracedSurface& traced = (*q.surfaces)[surface];
+  const Leaf& leaf = compiled.set.leaves[leaf_index];
+  const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
+  const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
+  if (leaf_index < ordinary && traced.solver != Solver::clipping) {
+    NewtonRoot found;
+    const NewtonVerdict verdict = solve_by_newton(leaf, net, q.local, found, *q.counts);
+    if (verdict == NewtonVerdict::root)
+      return take_root(q, surface, leaf, net, found.root, found.surface, far);
+    if (verdict == NewtonVerdict::none) return false;
+  }
   // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
   // every ray by; in double the leaf's own box does not.
   if (!meets_box(q.local, q.inverse_direction, compiled.set.boxes[leaf_index])) return false;
-  const Leaf& leaf = compiled.set.leaves[leaf_index];
-  const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
   roots.clear();
-  const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
   if (leaf_index >= ordinary)
     solve_radial(compiled.radial[leaf_index - ordinary], leaf, net, q.local, roots);
   else
-    solve_leaf(traced.solver, leaf, net, q.local, roots, thread_counts());
-  const double rounding = settled_bound(leaf.scale, q.local);
-  for (const Root& root : roots) {
-    const FirstOrder<dvec4> s = net_first(net, root.u, root.v);
-    const double w = s.value.w;
-    const dvec3 x = dvec3(s.value) / w;
-    const dvec3 xu = dvec3(s.du) - x * s.du.w, xv = dvec3(s.dv) - x * s.dv.w;
-    const auto normal = [&] { return unit_normal(net, root.u, root.v, s); };
-    dvec3 across = glm::cross(xu, xv);
-    // Beside a singular point the cross product is rounding noise; the way the ray crosses is not.
-    if (!(glm::length(across) > 1e-6 * glm::length(xu) * glm::length(xv))) across = normal();
-    // The parameters' own resolution counts too, as it does in `settle`.
-    const double step = unit_roundoff * (largest(xu) + largest(xv));
-    Crossing c =
-        make_crossing(q.local, x, across, (rounding + step) / w, leaf.scale.position / w, root.tangent);
-    move_to_tangent_plane(c, q.local, x, across, step / w);
-    if (take(q, surface, leaf.patch, {root.u, root.v}, x, normal, c, far)) return true;
-  }
+    search_leaf(leaf, net, q.local, roots, *q.counts);
+  for (const Root& root : roots)
+    if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), far)) return true;
   return false;
 }
 
@@ -179,10 +186,20 @@ struct Tracer::Implementation {
     hit.u = p.x, hit.v = p.y;
   }
 
+  // And the normal of the nearest.
+  void finish(Query& q) const {
+    finish(q.best);
+    const auto index = static_cast<std::size_t>(q.best.surface);
+    if (compiled[index].ellipsoid) return;
+    const Net& net = surfaces[index].surface.patches[static_cast<std::size_t>(q.best.patch)];
+    q.best.normal = unit_normal(net, q.best.u, q.best.v, q.best_first);
+  }
+
   Query make_query(const Ray& ray, Mode mode) const {
     Query q{};
     // A net on which a ray takes this many cells is degenerate; it must not stop the program.
-    SearchCounts& search = thread_counts().search;
+    q.counts = &thread_counts();
+    SearchCounts& search = q.counts->search;
     search.limit = search.cells + cells_per_query;
     q.surfaces = &surfaces, q.compiled = &compiled, q.ray = &ray, q.mode = mode;
     return q;
@@ -283,7 +300,7 @@ Hit Tracer::closest(const Ray& ray) const noexcept {
   double far;
   if (!implementation_->enter(ray, q, origin, direction, far)) return {};
   implementation_->embree->visit_all(origin, direction, far, &q);
-  if (q.best) implementation_->finish(q.best);
+  if (q.best) implementation_->finish(q);
   return q.best;
 }
 
