@@ -8,5 +8,6 @@ namespace rondure {
 void register_path(Registry& registry);
 void register_direct(Registry& registry);
 void register_normals(Registry& registry);
+void register_study(Registry& registry);
 
 }  // namespace rondure

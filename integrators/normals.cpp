@@ -7,8 +7,8 @@ namespace {
 
 class Normals : public Integrator {
  public:
-  dvec3 radiance(const World&, const Ray&, const Hit& first, Sampler&) const override {
-    return first ? 0.5 * (first.normal + dvec3(1.0)) : dvec3(0.0);
+  dvec3 radiance(const World& world, const Ray&, const Hit& first, Sampler&) const override {
+    return first ? 0.5 * (world.shading_normal(first) + dvec3(1.0)) : dvec3(0.0);
   }
 };
 

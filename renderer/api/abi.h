@@ -15,7 +15,7 @@
 namespace rondure {
 
 // Raise when the meaning of a plugin interface changes although every size stays the same.
-inline constexpr int abi_number = 1;
+inline constexpr int abi_number = 2;
 
 struct AbiString {
   char text[320] = {};
@@ -67,7 +67,9 @@ consteval AbiString abi_string() {
 #endif
   abi.add_layout<dvec4>("dvec4").add_layout<Net>("Net").add_layout<Surface>("Surface");
   abi.add_layout<Value>("Value").add_layout<Params>("Params").add_layout<SurfaceFamily>("SurfaceFamily");
-  abi.add_layout<IntegratorFactory>("IntegratorFactory").add_layout<Registry>("Registry");
+  abi.add_layout<IntegratorFactory>("IntegratorFactory")
+      .add_layout<LayerFactory>("LayerFactory")
+      .add_layout<Registry>("Registry");
   abi.add_layout<Ray>("Ray").add_layout<Hit>("Hit").add_layout<Sampler>("Sampler").add_layout<World>("World");
   return abi;
 }

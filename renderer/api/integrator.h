@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/api/legend.h"
 #include "renderer/api/params.h"
 #include "renderer/api/surface.h"
 #include "renderer/intersect/ray.h"
@@ -20,6 +22,8 @@ class Integrator {
   // Radiance (linear RGB) arriving along `ray`. `first` is the ray's closest hit, already found by the
   // renderer for the feature layers (it converts to false on a miss). Must depend on its arguments alone.
   virtual dvec3 radiance(const World& world, const Ray& ray, const Hit& first, Sampler& sampler) const = 0;
+  // For pictures whose colours are numbers; a preview shows it below the picture.
+  virtual std::optional<Legend> legend() const { return {}; }
 };
 
 struct IntegratorFactory {

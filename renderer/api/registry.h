@@ -1,5 +1,5 @@
-// The families and integrators that a scene can name. The host owns one Registry and hands it to every
-// plugin; nothing registers itself.
+// The families, integrators and film layers that a scene can name. The host owns one Registry and hands it to
+// every plugin; nothing registers itself.
 #pragma once
 
 #include <map>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/api/integrator.h"
+#include "renderer/api/layer.h"
 #include "renderer/api/surface.h"
 
 namespace rondure {
@@ -17,15 +18,19 @@ class Registry {
   // Throws std::runtime_error when the name is empty or taken, or the factory is null.
   void add(SurfaceFamily family);
   void add(IntegratorFactory factory);
+  void add(LayerFactory factory);
 
   const SurfaceFamily* family(std::string_view name) const;  // null when unknown
   const IntegratorFactory* integrator(std::string_view name) const;
+  const LayerFactory* layer(std::string_view name) const;
   std::vector<std::string> family_names() const;  // sorted
   std::vector<std::string> integrator_names() const;
+  std::vector<std::string> layer_names() const;
 
  private:
   std::map<std::string, SurfaceFamily, std::less<>> families_;
   std::map<std::string, IntegratorFactory, std::less<>> integrators_;
+  std::map<std::string, LayerFactory, std::less<>> layers_;
 };
 
 // The family that "type" names; an unknown name is an error that gives the nearest.

@@ -56,7 +56,7 @@ bool parse_resolution(const std::string& text, std::pair<std::int64_t, std::int6
   return error2 == std::errc{} && stop == end && size.first > 0 && size.second > 0;
 }
 
-// --spp, --seed, --resolution WxH, --integrator.
+// --spp, --seed, --resolution WxH, --integrator, --normals, --layers.
 void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
   command.add_option("--spp", overrides.spp, "Samples per pixel")->type_name("N");
   command.add_option("--seed", overrides.seed, "Seed of the random numbers")->type_name("N");
@@ -77,6 +77,17 @@ void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
       .add_option("--integrator", overrides.integrator,
                   "Integrator, with the scene's parameters if it names the same")
       ->type_name("NAME");
+  command
+      .add_option("--normals", overrides.normals,
+                  "What shades every object: limit, cross, cross_float, taylor, "
+                  "shift, hodograph or analytic")
+      ->type_name("NAME");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--layers", [&overrides](const std::vector<std::string>& names) { overrides.layers = names; },
+          "More layers of the film, with the scene's parameters where it has them; see rondure list")
+      ->type_name("NAME,...")
+      ->delimiter(',');
 }
 
 void add_render(CLI::App& program, CommandLine& line) {

@@ -18,6 +18,7 @@
 #include "renderer/film/atomic_file.h"
 #include "renderer/film/exr.h"
 #include "renderer/film/image.h"
+#include "renderer/film/legend_strip.h"
 #include "renderer/film/preview.h"
 #include "renderer/film/resume_state.h"
 #include "renderer/render/interrupt.h"
@@ -146,7 +147,11 @@ void run_render(const Registry& registry, RenderCommand options) {
   ExrHeader header{scene.hash, scene.sampling.seed, scene.integrator_name, solvers, scene.camera};
   write_exr(options.output, film, header);
   if (!options.png.empty()) {
-    write_png(options.png, film.window().width(), film.window().height(), preview(film, options.exposure));
+    std::vector<unsigned char> bytes = preview(film, options.exposure);
+    int height = film.window().height();
+    if (const auto legend = scene.integrator->legend())
+      height = append_legend(bytes, film.window().width(), height, *legend);
+    write_png(options.png, film.window().width(), height, bytes);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   note(options, fmt::format("{}: {} x {}, {} spp, {}", options.output, film.window().width(),

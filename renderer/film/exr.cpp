@@ -31,9 +31,8 @@ constexpr std::array names = {
     "R",    "G",    "B",          "A",          "Albedo.R",  "Albedo.G", "Albedo.B", "Depth.Z",
     "N.X",  "N.Y",  "N.Z",        "P.X",        "P.Y",       "P.Z",      "Patch.id", "Patch.surface",
     "UV.U", "UV.V", "Variance.R", "Variance.G", "Variance.B"};
-constexpr std::size_t channels = names.size();
 
-std::array<double, channels> values_at(const Film& film, int x, int y) {
+std::array<double, names.size()> values_at(const Film& film, int x, int y) {
   const FilmSample m = film.mean(x, y);
   // Of radiances that a float holds the variance may be more.
   const dvec3 v = glm::min(film.variance(x, y), dvec3(std::numeric_limits<float>::max()));
@@ -41,6 +40,12 @@ std::array<double, channels> values_at(const Film& film, int x, int y) {
   return {m.color.x,       m.color.y,         m.color.z,  m.alpha,    m.albedo.x, m.albedo.y, m.albedo.z,
           g.depth,         m.normal.x,        m.normal.y, m.normal.z, g.point.x,  g.point.y,  g.point.z,
           double(g.patch), double(g.surface), g.uv.x,     g.uv.y,     v.x,        v.y,        v.z};
+}
+
+std::vector<std::string> channels_of(const Film& film) {
+  std::vector<std::string> all(names.begin(), names.end());
+  for (const LayerPlane& plane : film.layers) all.push_back(plane.channel);
+  return all;
 }
 
 // OpenEXR's vectors are rows and glm's are columns, which makes the two indices mean the same.
@@ -61,7 +66,7 @@ Imf::Header make_header(const Film& film, const ExrHeader& info) {
   const double screen = std::min(info.camera.extent * aspect, double(std::numeric_limits<float>::max()));
   Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, static_cast<float>(screen), Imf::INCREASING_Y,
                      Imf::ZIP_COMPRESSION);
-  for (const char* name : names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  for (const std::string& name : channels_of(film)) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   Imf::addChromaticities(header, Imf::Chromaticities{});  // Rec. 709, D65
   Imf::addWorldToCamera(header, matrix(world_to_camera(info.camera)));
   Imf::addWorldToNDC(header, matrix(world_to_ndc(info.camera, aspect)));
@@ -79,6 +84,8 @@ Imf::Header make_header(const Film& film, const ExrHeader& info) {
 
 }  // namespace
 
+std::vector<std::string> standard_channels() { return {names.begin(), names.end()}; }
+
 void write_exr(const std::string& path, const Film& film, const ExrHeader& info) {
   const Window& w = film.window();
   const auto width = static_cast<std::size_t>(w.width());
@@ -90,20 +97,24 @@ void write_exr(const std::string& path, const Film& film, const ExrHeader& info)
       Imf::StdOFStream output(stream, path.c_str());
       Imf::OutputFile file(output, make_header(film, info), 0);
       // A line at a time, channels in turn.
-      std::vector<float> line(channels * width);
+      const std::vector<std::string> channels = channels_of(film);
+      std::vector<float> line(channels.size() * width);
       Imf::FrameBuffer buffer;
-      for (std::size_t c = 0; c < channels; ++c) {
+      for (std::size_t c = 0; c < channels.size(); ++c) {
         // The library wants the address of pixel (0, 0), here left of the window. All lines share the memory.
         char* base =
             reinterpret_cast<char*>(&line[c * width]) - sizeof(float) * static_cast<std::size_t>(w.x0);
-        buffer.insert(names[c], Imf::Slice(Imf::FLOAT, base, sizeof(float), 0));
+        buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, base, sizeof(float), 0));
       }
       file.setFrameBuffer(buffer);
       for (int y = w.y0; y < w.y1; ++y) {
         for (int x = w.x0; x < w.x1; ++x) {
           const auto values = values_at(film, x, y);
-          for (std::size_t c = 0; c < channels; ++c) {
-            line[c * width + static_cast<std::size_t>(x - w.x0)] = static_cast<float>(values[c]);
+          const auto column = static_cast<std::size_t>(x - w.x0);
+          for (std::size_t c = 0; c < channels.size(); ++c) {
+            line[c * width + column] = c < values.size()
+                                           ? static_cast<float>(values[c])
+                                           : film.layers[c - values.size()].values[film.index(x, y)];
           }
         }
         file.writePixels(1);

@@ -33,6 +33,10 @@ Film::Film(int width, int height, Window window) : width_(width), height_(height
   geometry.resize(count);
 }
 
+void Film::add_layer(const std::string& channel) {
+  layers.push_back({channel, std::vector<float>(geometry.size())});
+}
+
 PixelSums Film::sums(int x, int y) const {
   PixelSums result = whole[index(x, y)];
   if (!rest.empty()) result.add(rest[index(x, y)]);

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "renderer/api/patch.h"
@@ -48,6 +49,12 @@ struct PixelGeometry {
   int surface = -1;
 };
 
+// One channel of an extra layer.
+struct LayerPlane {
+  std::string channel;
+  std::vector<float> values;
+};
+
 class Film {
  public:
   // Samples in a chunk.
@@ -68,13 +75,16 @@ class Film {
   std::vector<PixelSums> whole;
   std::vector<PixelSums> rest;
   std::vector<PixelGeometry> geometry;
-  bool has_geometry = false;
+  std::vector<LayerPlane> layers;  // from the same rays as `geometry`
+  bool has_geometry = false;       // and layers
   std::uint32_t samples = 0;
   std::uint64_t rejected = 0;        // samples that were no radiance, and counted as black
   std::uint64_t whole_rejected = 0;  // those in `whole`
 
   // Samples in `whole` alone.
   std::uint32_t whole_samples() const { return samples / chunk * chunk; }
+
+  void add_layer(const std::string& channel);
 
   // Means at a pixel of the window, and the variance of the colour's mean (zero for a single sample).
   FilmSample mean(int x, int y) const;

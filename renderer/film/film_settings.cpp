@@ -1,5 +1,7 @@
 #include "renderer/film/film_settings.h"
 
+#include "renderer/film/layer_reader.h"
+
 namespace rondure {
 namespace {
 
@@ -35,6 +37,7 @@ FilmSettings read_film(Params& params) {
   } else {
     film.filter = read_filter(read_kind(params, "filter"), 0.0);
   }
+  film.layers = read_layers(params);
   params.finish();
   return film;
 }
@@ -42,11 +45,14 @@ FilmSettings read_film(Params& params) {
 const std::vector<TypeDoc>& film_docs() {
   static const std::vector<TypeDoc> docs = {
       {"film",
-       "The picture's size and its pixel filter.",
+       "The picture's size, its pixel filter, and what its file holds beside the colour.",
        {{"resolution", "two integers in [1, 65536]", "[640, 480]", "width and height in pixels"},
         {"filter", "\"box\", \"tent\", \"gaussian\", \"blackman_harris\", or {\"type\", \"radius\"}",
          "\"blackman_harris\"",
-         "pixel filter, by importance sampling; radius in pixels, 0 for the kind's own (0.5, 1, 1.5, 2)"}}},
+         "pixel filter, by importance sampling; radius in pixels, 0 for the kind's own (0.5, 1, 1.5, 2)"},
+        {"layers", "array of names, or objects {\"type\", ...}", "[]",
+         "layers beside those that every film has, from the ray through each pixel's centre; see rondure "
+         "list"}}},
   };
   return docs;
 }

@@ -65,6 +65,17 @@ Image read_image(const std::string& path) {
   return image;
 }
 
+void draw_text(std::vector<unsigned char>& rgb, int width, int height, dvec2 at, int size, bool centred,
+               const std::string& text) {
+  const auto draw = reinterpret_cast<DrawTextFunction>(module_symbol(draw_text_name));
+  Failure failure;
+  if (!draw(rgb.data(), width, height, static_cast<int>(at.x), static_cast<int>(at.y), size, centred,
+            text.c_str(), &failure.report)) {
+    throw std::runtime_error(fmt::format(
+        "the legend needs the font DejaVu Sans (Debian's fonts-dejavu-core): {}", failure.message));
+  }
+}
+
 void write_png(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb) {
   const auto write = reinterpret_cast<WritePngFunction>(module_symbol(write_png_name));
   AtomicFile file(path, ".png");

@@ -31,6 +31,12 @@ void require_image_module();
 // channels. Throws std::runtime_error naming the file; non-finite and negative values are errors too.
 Image read_image(const std::string& path);
 
+// Draws white text of a size in pixels on a picture as below; `at` is the left end of its baseline, or with
+// `centred` its middle. Throws std::runtime_error where there is no font: DejaVu Sans, Debian's
+// fonts-dejavu-core.
+void draw_text(std::vector<unsigned char>& rgb, int width, int height, dvec2 at, int size, bool centred,
+               const std::string& text);
+
 // 8-bit, three bytes a pixel, top row first, sRGB. Atomic. Throws std::runtime_error naming the file.
 void write_png(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb);
 

@@ -12,6 +12,10 @@ double srgb_of_linear(double x) {
 
 }  // namespace
 
+unsigned char srgb_byte(double linear) {
+  return static_cast<unsigned char>(srgb_of_linear(std::clamp(linear, 0.0, 1.0)) * 255.0 + 0.5);
+}
+
 std::vector<unsigned char> preview(const Film& film, double exposure) {
   const double scale = std::exp2(exposure);
   const Window& w = film.window();
@@ -20,10 +24,7 @@ std::vector<unsigned char> preview(const Film& film, double exposure) {
   for (int y = w.y0; y < w.y1; ++y) {
     for (int x = w.x0; x < w.x1; ++x) {
       const dvec3 color = film.mean(x, y).color * scale;
-      for (int c = 0; c < 3; ++c) {
-        const double encoded = srgb_of_linear(std::clamp(color[c], 0.0, 1.0));
-        bytes.push_back(static_cast<unsigned char>(encoded * 255.0 + 0.5));
-      }
+      for (int c = 0; c < 3; ++c) bytes.push_back(srgb_byte(color[c]));
     }
   }
   return bytes;

@@ -11,4 +11,7 @@ namespace rondure {
 // row first, the film's window alone.
 std::vector<unsigned char> preview(const Film& film, double exposure);
 
+// One value of a linear colour in that encoding.
+unsigned char srgb_byte(double linear);
+
 }  // namespace rondure

@@ -16,9 +16,13 @@ using ReadImageFunction = bool (*)(const char* path, Image* image, const ImageRe
 // 8-bit sRGB, top row first, three bytes a pixel.
 using WritePngFunction = bool (*)(const char* path, int width, int height, const unsigned char* rgb,
                                   const ImageReport* report);
+// Draws white text on 8-bit sRGB; (x, y) is the left end of its baseline, or with `centred` its middle.
+using DrawTextFunction = bool (*)(unsigned char* rgb, int width, int height, int x, int y, int size,
+                                  bool centred, const char* text, const ImageReport* report);
 }
 
 constexpr const char* read_image_name = "rondure_read_image";
+constexpr const char* draw_text_name = "rondure_draw_text";
 constexpr const char* write_png_name = "rondure_write_png";
 
 }  // namespace rondure

@@ -1,5 +1,7 @@
 // Reads pictures and writes previews through OpenImageIO. Built as a module; see renderer/film/image.h.
 
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -66,6 +68,21 @@ bool write(const char* path, int width, int height, const unsigned char* rgb,
   return true;
 }
 
+constexpr const char* font = "DejaVuSans";
+
+bool draw(unsigned char* rgb, int width, int height, int x, int y, int size, bool centred, const char* text,
+          const rondure::ImageReport* report) {
+  // The buffer wraps the pixels.
+  OIIO::ImageBuf picture(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8), rgb);
+  const float white[] = {1.0f, 1.0f, 1.0f};
+  if (OIIO::ImageBufAlgo::render_text(
+          picture, x, y, text, size, font, white,
+          centred ? OIIO::ImageBufAlgo::TextAlignX::Center : OIIO::ImageBufAlgo::TextAlignX::Left,
+          OIIO::ImageBufAlgo::TextAlignY::Baseline))
+    return true;
+  return fail(report, picture.geterror());
+}
+
 }  // namespace
 
 // No exception leaves a C function.
@@ -73,6 +90,15 @@ extern "C" bool rondure_read_image(const char* path, rondure::Image* image,
                                    const rondure::ImageReport* report) {
   try {
     return read(path, *image, report);
+  } catch (const std::exception& e) {
+    return fail(report, e.what());
+  }
+}
+
+extern "C" bool rondure_draw_text(unsigned char* rgb, int width, int height, int x, int y, int size,
+                                  bool centred, const char* text, const rondure::ImageReport* report) {
+  try {
+    return draw(rgb, width, height, x, y, size, centred, text, report);
   } catch (const std::exception& e) {
     return fail(report, e.what());
   }

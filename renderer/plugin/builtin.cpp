@@ -1,6 +1,7 @@
 #include "renderer/plugin/builtin.h"
 
 #include "integrators/integrators.h"
+#include "renderer/layers/layers.h"
 #include "surfaces/families.h"
 
 namespace rondure {
@@ -27,6 +28,13 @@ void register_builtins(Registry& registry) {
       register_direct,
       register_normals,
       register_path,
+      register_study,
+      register_curvature_layer,
+      register_jacobian_layer,
+      register_line_layers,
+      register_normal_error_layer,
+      register_residual_layer,
+      register_work_layer,
   };
   for (const auto register_one : table) register_one(registry);
 }

@@ -1,4 +1,4 @@
-// The families and integrators that are compiled in.
+// The families, integrators and layers that are compiled in.
 #pragma once
 
 #include "renderer/api/registry.h"

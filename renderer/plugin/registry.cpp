@@ -43,12 +43,19 @@ void Registry::add(IntegratorFactory factory) {
   add_to(integrators_, std::move(factory), callable, "integrator");
 }
 
+void Registry::add(LayerFactory factory) {
+  const bool callable = static_cast<bool>(factory.create) && !factory.channels.empty();
+  add_to(layers_, std::move(factory), callable, "layer");
+}
+
 const SurfaceFamily* Registry::family(std::string_view name) const { return find_in(families_, name); }
 const IntegratorFactory* Registry::integrator(std::string_view name) const {
   return find_in(integrators_, name);
 }
+const LayerFactory* Registry::layer(std::string_view name) const { return find_in(layers_, name); }
 std::vector<std::string> Registry::family_names() const { return names_of(families_); }
 std::vector<std::string> Registry::integrator_names() const { return names_of(integrators_); }
+std::vector<std::string> Registry::layer_names() const { return names_of(layers_); }
 
 const SurfaceFamily& family_of(Params& params, const Registry& registry) {
   const std::string type = params.text("type");

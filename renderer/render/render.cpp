@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -51,8 +52,8 @@ bool take_sample(const Job& job, int x, int y, std::uint32_t index, FilmSample& 
   const Hit first = job.world.tracer().closest(ray);
   if (first) {
     sample.alpha = 1.0;
-    sample.normal = first.normal;
-    sample.albedo = albedo(job.world.material(first), first.normal, -ray.direction);
+    sample.normal = job.world.shading_normal(first);
+    sample.albedo = albedo(job.world.material(first), sample.normal, -ray.direction);
   }
   sample.color = job.scene.integrator->radiance(job.world, ray, first, sampler);
   if (is_radiance(sample.color)) return true;
@@ -60,10 +61,32 @@ bool take_sample(const Job& job, int x, int y, std::uint32_t index, FilmSample& 
   return false;
 }
 
-PixelGeometry take_geometry(const Job& job, int x, int y) {
+// What a float holds of a layer's value.
+float stored(double value, const std::string& channel) {
+  if (std::isnan(value))
+    throw std::runtime_error(fmt::format("the layer \"{}\" gave no number for a pixel", channel));
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -most, most));
+}
+
+void take_layers(const Job& job, const Ray& ray, const Hit& hit, std::size_t at, Film& film) {
+  std::size_t plane = 0;
+  std::vector<double> values;
+  for (const FilmLayer& layer : job.scene.film.layers) {
+    values.assign(layer.channels.size(), 0.0);
+    layer.function(job.world, ray, hit, values.data());
+    for (const double value : values) {
+      film.layers[plane].values[at] = stored(value, film.layers[plane].channel);
+      ++plane;
+    }
+  }
+}
+
+PixelGeometry take_geometry(const Job& job, int x, int y, Film& film) {
   const Camera& camera = job.scene.camera;
   const Ray ray = camera_ray(camera, job.aspect, film_point(job, x + 0.5, y + 0.5), {0.5, 0.5});
   const Hit hit = job.world.tracer().closest(ray);
+  if (!film.layers.empty()) take_layers(job, ray, hit, film.index(x, y), film);
   if (!hit) return {};
   const double depth = glm::dot(hit.point - camera.origin, camera.forward);
   return {hit.point, depth, {hit.u, hit.v}, hit.patch, hit.surface};
@@ -90,9 +113,16 @@ PixelResult render_pixel(const Job& job, int x, int y, PixelSums& whole) {
 
 World make_world(const Scene& scene, const Tracer& tracer) {
   std::vector<int> materials;
-  for (const SceneObject& object : scene.objects) materials.push_back(object.material);
+  std::vector<NormalEstimator> normals;
+  bool plain = true;
+  for (const SceneObject& object : scene.objects) {
+    materials.push_back(object.material);
+    normals.push_back(object.normals.value_or(NormalEstimator::limit));
+    plain = plain && normals.back() == NormalEstimator::limit;
+  }
+  if (plain) normals.clear();
   try {
-    return World(tracer, scene.materials, scene.lights, std::move(materials));
+    return World(tracer, scene.materials, scene.lights, std::move(materials), std::move(normals));
   } catch (const LightError& error) {
     const auto* image = std::get_if<EnvironmentLight>(&scene.lights[error.light]);
     scene.fail(image ? image->file_where : SourcePosition{}, error.what());
@@ -108,7 +138,11 @@ Film make_film(const Scene& scene, const RenderOptions& options) {
         fmt::format("the crop {},{},{},{} must be a window of 0,0,{},{}: x0,y0 within, x1,y1 just beyond",
                     w.x0, w.y0, w.x1, w.y1, width, height));
   }
-  return Film(width, height, w);
+  Film film(width, height, w);
+  for (const FilmLayer& layer : scene.film.layers) {
+    for (const std::string& channel : layer.channels) film.add_layer(channel);
+  }
+  return film;
 }
 
 void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const World& world,
@@ -128,7 +162,7 @@ void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const Wo
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) {
         const std::size_t at = film.index(x, y);
-        if (!film.has_geometry) film.geometry[at] = take_geometry(job, x, y);
+        if (!film.has_geometry) film.geometry[at] = take_geometry(job, x, y, film);
         const PixelResult result = render_pixel(job, x, y, film.whole[at]);
         if (!film.rest.empty()) film.rest[at] = result.rest;
         rejected += result.rejected;

@@ -87,6 +87,12 @@ void place(Surface& surface, const Placement& placement) {
   for (Net& net : surface.patches) make_corner_positive(net);
 }
 
+NormalEstimator read_estimator(Params& params, std::string_view key) {
+  const std::string name = params.choice(
+      key, {"limit", "cross", "cross_float", "taylor", "shift", "hodograph", "analytic"}, "limit");
+  return *estimator_named(name);
+}
+
 std::vector<SceneObject> read_object(Params& params, const Registry& registry,
                                      const std::map<std::string, int>& materials) {
   SceneObject object;
@@ -101,6 +107,7 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
   placement.transform = read_transform(params);
   object.material = read_material_name(params, "material", default_material, materials);
   const std::string solver = params.choice("solver", {"newton", "clipping", "radial"}, "radial");
+  if (params.raw("normals")) object.normals = read_estimator(params, "normals");
   object.traced.surface = family.build(params);
   const Show show = read_show(params, object.traced.surface);
   const int wire_material = read_material_name(params, "wire_material", contrast_material, materials);

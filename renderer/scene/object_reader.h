@@ -27,6 +27,9 @@ void place(Surface& surface, const Placement& placement);
 inline constexpr int default_material = -1;
 inline constexpr int contrast_material = -2;
 
+// The estimator that a scene names there, or the limit.
+NormalEstimator read_estimator(Params& params, std::string_view key);
+
 // Reads and finishes the object: what "show" names in one material, and after it the wires in theirs, if
 // there are both. `materials` maps names to indices.
 std::vector<SceneObject> read_object(Params& params, const Registry& registry,

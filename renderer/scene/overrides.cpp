@@ -149,6 +149,23 @@ void choose_integrator(Value& root, const std::string& name) {
   value = string(name);
 }
 
+void choose_layers(Value& film, const std::vector<std::string>& names) {
+  Value& layers = member(film, "layers");
+  Value chosen;
+  chosen.kind = Value::Kind::array;
+  for (const std::string& name : names) {
+    bool found = false;
+    for (const Value& item : layers.items) {
+      const Value* type = item.kind == Value::Kind::object ? item.find("type") : &item;
+      if (!type || type->kind != Value::Kind::string || type->string != name) continue;
+      chosen.items.push_back(item);
+      found = true;
+    }
+    if (!found) chosen.items.push_back(string(name));
+  }
+  layers = std::move(chosen);
+}
+
 }  // namespace
 
 void apply_overrides(Value& root, const SceneOverrides& overrides) {
@@ -168,11 +185,16 @@ void apply_overrides(Value& root, const SceneOverrides& overrides) {
       member(*film, "resolution") = std::move(size);
     }
   }
+  if (overrides.layers) {
+    if (Value* film = section(root, "film")) choose_layers(*film, *overrides.layers);
+  }
   if (overrides.integrator) choose_integrator(root, *overrides.integrator);
-  if (overrides.solver) {
+  if (overrides.solver || overrides.normals) {
     Value& objects = member(root, "objects");
     for (Value& object : objects.items) {
-      if (object.kind == Value::Kind::object) member(object, "solver") = string(*overrides.solver);
+      if (object.kind != Value::Kind::object) continue;
+      if (overrides.solver) member(object, "solver") = string(*overrides.solver);
+      if (overrides.normals) member(object, "normals") = string(*overrides.normals);
     }
     if (objects.kind == Value::Kind::null && objects.where.line < 1) {
       std::erase_if(root.members, [](const Value::Member& m) { return m.key == "objects"; });
@@ -188,7 +210,11 @@ std::string overrides_text(const SceneOverrides& overrides) {
   if (overrides.resolution) {
     text += fmt::format("resolution {} {}\n", overrides.resolution->first, overrides.resolution->second);
   }
+  if (overrides.layers) {
+    for (const std::string& name : *overrides.layers) text += "layer " + name + "\n";
+  }
   if (overrides.integrator) text += "integrator " + *overrides.integrator + "\n";
+  if (overrides.normals) text += "normals " + *overrides.normals + "\n";
   if (overrides.solver) text += "solver " + *overrides.solver + "\n";
   return text;
 }

@@ -21,6 +21,9 @@ struct SceneOverrides {
   std::optional<std::pair<std::int64_t, std::int64_t>> resolution;  // width, height
   std::optional<std::string> integrator;  // keeps the parameters of one of the same name
   std::optional<std::string> solver;      // of every object
+  std::optional<std::string> normals;     // of every object
+  // The film's layers by name; those that the scene has keep their parameters.
+  std::optional<std::vector<std::string>> layers;
 };
 
 // Edits the tree of a scene. Values that come from here have no position; errors of the overrides themselves

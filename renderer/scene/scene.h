@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "renderer/camera/camera.h"
 #include "renderer/film/film_settings.h"
 #include "renderer/intersect/tracer.h"
+#include "renderer/normals/estimator.h"
 #include "renderer/shading/light.h"
 #include "renderer/shading/material.h"
 
@@ -24,7 +26,8 @@ struct SceneObject {
   std::string name;  // "objects[3]" unless the scene names it
   std::string type;
   TracedSurface traced;
-  int material = 0;  // index into Scene::materials
+  int material = 0;                        // index into Scene::materials
+  std::optional<NormalEstimator> normals;  // that shade it; set once the scene is read
   SourcePosition where;
 };
 

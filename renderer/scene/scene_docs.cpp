@@ -2,6 +2,7 @@
 
 #include "renderer/camera/camera.h"
 #include "renderer/film/film_settings.h"
+#include "renderer/film/layer_reader.h"
 #include "renderer/shading/light.h"
 #include "renderer/shading/material.h"
 
@@ -35,6 +36,7 @@ const std::vector<TypeDoc>& scene_docs() {
         {"integrator", "name or object", "\"path\"", "see rondure list"},
         {"materials", "object", "{}", "materials by name"},
         {"lights", "array of objects", "a constant light of 1, unless an object emits", "light from outside"},
+        {"normals", "as of an object", "\"limit\"", "of all objects that name none"},
         {"name", "string", "\"\"", "a title"},
         {"comment", "string", "\"\"", "a remark"},
         {"$schema", "string", "\"\"", "where editors find scene.schema.json"}}},
@@ -66,6 +68,14 @@ const std::vector<TypeDoc>& scene_docs() {
          "how rays find the surface: \"radial\" solves one polynomial for the whole ray, on inverse "
          "spherical "
          "patches with a planar projection domain; other patches are then met as by \"newton\""},
+        {"normals",
+         "\"limit\", \"cross\", \"cross_float\", \"taylor\", \"shift\", \"hodograph\" or \"analytic\"",
+         "the scene's",
+         "the normals that shade it: the limit at singular points too, Su x Sv in double or in single "
+         "precision, "
+         "with a Taylor step or a shift of the parameters where that vanishes, the reduced normal "
+         "polynomial, the "
+         "quadric's gradient (black where there is no quadric)"},
         {"name", "string", "\"objects[i]\"", "what messages and lists call it"}}},
       {"sampling",
        "How many samples, and which.",
@@ -86,10 +96,17 @@ std::vector<TypeGroup> all_types(const Registry& registry) {
     const IntegratorFactory& integrator = *registry.integrator(name);
     integrators.types.push_back({name, integrator.summary, integrator.parameters});
   }
+  TypeGroup layers{"layer", {}};
+  for (const std::string& name : registry.layer_names()) {
+    const LayerFactory& layer = *registry.layer(name);
+    layers.types.push_back({name, layer.summary, layer.parameters});
+    layers.types.back().parameters.push_back(layer_group_doc());
+  }
   TypeGroup parts{"part of a scene", scene_docs()};
   for (const TypeDoc& doc : film_docs()) parts.types.push_back(doc);
   return {families,
           integrators,
+          layers,
           {"material", material_docs()},
           {"light", light_docs()},
           {"camera", camera_docs()},

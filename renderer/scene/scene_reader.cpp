@@ -52,6 +52,7 @@ void read_integrator(Scene& scene, Params& root, const Registry& registry) {
     object.members.push_back({"type", name.where, name});
   }
   Params params(object, root.source(), "integrator");
+  params.set_registry(registry);
   scene.integrator_name = params.text("type");
   const IntegratorFactory* factory = registry.integrator(scene.integrator_name);
   if (!factory) {
@@ -110,6 +111,8 @@ void read_objects(Scene& scene, Params& root, const Registry& registry,
     }
   }
   std::move(wires.begin(), wires.end(), std::back_inserter(scene.objects));
+  const NormalEstimator normals = read_estimator(root, "normals");
+  for (SceneObject& object : scene.objects) object.normals = object.normals.value_or(normals);
   int plain = default_material;
   for (SceneObject& object : scene.objects) {
     if (object.material != default_material) continue;
@@ -156,6 +159,7 @@ Scene read_document(Document document, const std::string& path, const Registry& 
   root.text("comment", "");
   if (root.raw("film")) {
     Params params = root.object("film");
+    params.set_registry(registry);
     scene.film = read_film(params);
   }
   if (root.raw("sampling")) scene.sampling = read_sampling(root.object("sampling"));

@@ -84,10 +84,11 @@ struct World::Lights {
 };
 
 World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
-             std::vector<int> material_of_surface)
+             std::vector<int> material_of_surface, std::vector<NormalEstimator> normals_of_surface)
     : tracer_(&tracer),
       materials_(std::move(materials)),
       material_of_surface_(std::move(material_of_surface)),
+      estimators_(std::move(normals_of_surface)),
       lights_(std::make_unique<Lights>()) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = lights[i];
@@ -99,6 +100,7 @@ World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<
     }
   }
   const std::vector<TracedSurface>& surfaces = tracer.surfaces();
+  for (const TracedSurface& traced : surfaces) fields_.emplace_back(traced.surface);
   lights_->area_of_surface.assign(surfaces.size(), -1);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Material& m = materials_[static_cast<std::size_t>(material_of_surface_[i])];
@@ -132,6 +134,12 @@ Material World::material(const Hit& hit) const {
     shown = curvature_color(*own.curvature, net, hit.u, hit.v, shown);
   }
   return here;
+}
+
+dvec3 World::shading_normal(const Hit& hit) const {
+  const NormalEstimator chosen = estimator(hit.surface);
+  if (chosen == NormalEstimator::limit) return hit.normal;
+  return normals(hit.surface).at(chosen, hit).value_or(dvec3(0.0));
 }
 
 dvec3 World::emitted(const Hit& hit, const dvec3& out) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/intersect/tracer.h"
+#include "renderer/normals/normal_field.h"
 #include "renderer/shading/light.h"
 #include "renderer/shading/material.h"
 
@@ -32,9 +33,10 @@ struct LightError : std::runtime_error {
 class World {
  public:
   // `material_of_surface[i]` is the index of the material of the tracer's surface i. The tracer must outlive
-  // the world. Reads environment images; throws LightError that names the file.
+  // the world. Reads environment images; throws LightError that names the file. Without estimators every
+  // surface is shaded by the limit normal.
   World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
-        std::vector<int> material_of_surface);
+        std::vector<int> material_of_surface, std::vector<NormalEstimator> normals_of_surface = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -43,6 +45,16 @@ class World {
   // The material at the hit: that of its surface, coloured by curvature if it asks for that, or of a
   // parameter line drawn there. Ask once a hit.
   Material material(const Hit& hit) const;
+
+  // The normal that light is scattered by at a hit: that of the surface's estimator, or zero where it comes
+  // to nothing; there no light is scattered. By default it is the hit's own, which is the limit, or where
+  // none exists that along one way in. All that is geometry (which side a ray leaves, what it leaves out)
+  // goes by the hit's.
+  dvec3 shading_normal(const Hit& hit) const;
+  NormalEstimator estimator(int surface) const {
+    return estimators_.empty() ? NormalEstimator::limit : estimators_[static_cast<std::size_t>(surface)];
+  }
+  const NormalField& normals(int surface) const { return fields_[static_cast<std::size_t>(surface)]; }
 
   // Radiance that leaves the hit toward `out` (unit) by emission.
   dvec3 emitted(const Hit& hit, const dvec3& out) const;
@@ -65,6 +77,8 @@ class World {
   std::vector<Material> materials_;
   std::vector<Material> inks_;  // of the parameter lines of each material
   std::vector<int> material_of_surface_;
+  std::vector<NormalEstimator> estimators_;
+  std::vector<NormalField> fields_;
   std::unique_ptr<Lights> lights_;
 };
 

@@ -35,13 +35,15 @@ Json scene_with(const std::string& kind, const std::string& type, Json::json_poi
   Json scene = Json::parse(R"({ "objects": [ { "type": "sphere" } ] })");
   static const std::map<std::string, std::string> places = {
       {"surface", "/objects/0"}, {"integrator", "/integrator"}, {"material", "/materials/m"},
-      {"light", "/lights/0"},    {"camera", "/camera"},         {"filter", "/film/filter"}};
+      {"light", "/lights/0"},    {"layer", "/film/layers/0"},   {"camera", "/camera"},
+      {"filter", "/film/filter"}};
   const auto found = places.find(kind);
   place = Json::json_pointer(found != places.end() ? found->second
                              : type == "object"    ? "/objects/0"
                              : type == "scene"     ? ""
                                                    : "/" + type);
   if (kind == "light") scene["lights"] = Json::array();
+  if (kind == "layer") scene["film"]["layers"] = Json::array();
   if (found != places.end()) scene[place]["type"] = type;
   if (found == places.end() && !scene.contains(place)) scene[place] = Json::object();
   if (type == "bezier") {

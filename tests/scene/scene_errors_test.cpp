@@ -37,7 +37,7 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
       {"{ \"objects\": [{\"type\":\"sphere\"}], \"fog\": 1 }",
        "s.json:1:35: unknown key \"fog\" in the scene; known keys: \"$schema\", \"camera\", \"comment\", "
        "\"film\", "
-       "\"integrator\", \"lights\", \"materials\", \"name\", \"objects\", \"sampling\""},
+       "\"integrator\", \"lights\", \"materials\", \"name\", \"normals\", \"objects\", \"sampling\""},
       {"{ \"name\": 3 }", "s.json:1:11: \"name\" must be a string, found 3"},
       {"{ \"camera\": 3, \"objects\": [{\"type\":\"sphere\"}] }",
        "s.json:1:13: \"camera\" must be an object, { ... }, found 3"},
@@ -49,6 +49,14 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
        "s.json:1:22: \"filter\" must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\", found "
        "\"gauss\"; did "
        "you mean \"gaussian\"?"},
+      {"{ \"film\": {\"layers\": [\"jacobean\"]} }",
+       "s.json:1:23: unknown layer \"jacobean\"; did you mean \"jacobian\"?"},
+      {"{ \"film\": {\"layers\": [\"jacobian\", {\"type\": \"jacobian\"}]} }",
+       "s.json:1:35: layers[1]: the film has a channel \"Jacobian.sine\" already; name this one's group by "
+       "\"as\""},
+      {"{ \"film\": {\"layers\": [{\"type\": \"jacobian\", \"as\": \"a b\"}]} }",
+       "s.json:1:49: \"as\" must be a name of letters, digits and underscores, which the layer's channels "
+       "begin with"},
       {"{ \"sampling\": {\"spp\": 0} }",
        "s.json:1:23: \"spp\" must be an integer in [1, 1073741824], found 0"},
       {"{ \"sampling\": {\"spp\": 2.5} }",
@@ -60,7 +68,7 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
       {"{ \"sampling\": [] }", "s.json:1:15: \"sampling\" must be an object, { ... }, found an array of 0"},
       {"{ \"integrator\": \"paths\" }", "s.json:1:17: unknown integrator \"paths\"; did you mean \"path\"?"},
       {"{ \"integrator\": \"bdpt\" }",
-       "s.json:1:17: unknown integrator \"bdpt\"; known: \"direct\", \"normals\", \"path\""},
+       "s.json:1:17: unknown integrator \"bdpt\"; known: \"direct\", \"normals\", \"path\", \"study\""},
       {"{ \"integrator\": 1 }",
        "s.json:1:17: \"integrator\" must be a name or an object, { \"type\": name, ... }"},
       {"{ \"integrator\": {} }", "s.json:1:17: integrator: \"type\" is missing; it must be a string"},
@@ -124,11 +132,15 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
        "s.json:1:34: unknown key \"centre\" in objects[0]; did you mean \"center\"?"},
       {"{\"type\": \"sphere\", \"z_max\": 0.5}",
        "s.json:1:34: unknown key \"z_max\" in objects[0]; known keys: \"center\", \"isolines\", "
-       "\"material\", \"name\", "
+       "\"material\", \"name\", \"normals\", "
        "\"radius\", "
        "\"show\", \"solver\", \"transform\", \"type\", \"wire\", \"wire_material\""},
       {"{\"type\": \"sphere\", \"material\": \"clay\"}",
        "s.json:1:46: unknown material \"clay\"; there are none"},
+      {"{\"type\": \"sphere\", \"normals\": \"crossfloat\"}",
+       "s.json:1:45: \"normals\" must be one of \"limit\", \"cross\", \"cross_float\", \"taylor\", "
+       "\"shift\", "
+       "\"hodograph\", \"analytic\", found \"crossfloat\"; did you mean \"cross_float\"?"},
       {"{\"type\": \"sphere\", \"solver\": \"exact\"}",
        "s.json:1:44: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found \"exact\""},
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",

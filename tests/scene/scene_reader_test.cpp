@@ -115,13 +115,15 @@ TEST_CASE("the hash tells files and overrides apart", "[scene]") {
   const std::uint64_t plain = read(text).hash;
   CHECK(plain == read(text).hash);
   CHECK(plain != read(text + " ").hash);
-  std::vector<SceneOverrides> all(6);
+  std::vector<SceneOverrides> all(8);
   all[0].set = {"/sampling/spp=3"};
   all[1].spp = 3;
   all[2].seed = 3;
   all[3].resolution = {3, 3};
   all[4].integrator = "direct";
   all[5].solver = "clipping";
+  all[6].normals = "cross";
+  all[7].layers = {"jacobian"};
   std::vector<std::uint64_t> hashes = {plain};
   for (const SceneOverrides& overrides : all) {
     const std::uint64_t hash = read(text, overrides).hash;
@@ -149,6 +151,7 @@ TEST_CASE("overrides change what they name", "[scene]") {
   overrides.resolution = {32, 16};
   overrides.integrator = "normals";
   overrides.solver = "clipping";
+  overrides.normals = "taylor";
   const Scene scene = read("{" + ball + "}", overrides);
   CHECK((*scene.objects[0].traced.surface.ellipsoid)[0] == dvec3(2.5, 0, 0));
   CHECK(scene.objects[0].traced.surface.origin == dvec3(1, 2, 3));
@@ -161,6 +164,7 @@ TEST_CASE("overrides change what they name", "[scene]") {
   CHECK(scene.film.height == 16);
   CHECK(scene.integrator_name == "normals");
   CHECK(scene.objects[0].traced.solver == Solver::clipping);
+  CHECK(scene.objects[0].normals == NormalEstimator::taylor);
 }
 
 TEST_CASE("an integrator named again keeps its parameters", "[scene]") {

@@ -42,11 +42,9 @@ std::set<std::string> keys_of(const Json& properties) {
 TEST_CASE("schema and documentation know the same types and keys", "[scene]") {
   Registry registry;
   register_builtins(registry);
-  const std::map<std::string, std::string> groups = {{"surface", "object"},
-                                                     {"integrator", "integrator"},
-                                                     {"material", "material"},
-                                                     {"light", "light"},
-                                                     {"camera", "camera"}};
+  const std::map<std::string, std::string> groups = {{"surface", "object"}, {"integrator", "integrator"},
+                                                     {"layer", "layer"},    {"material", "material"},
+                                                     {"light", "light"},    {"camera", "camera"}};
   std::map<std::string, TypeDoc> parts;
   for (const TypeGroup& group : all_types(registry)) {
     for (const TypeDoc& type : group.types) parts[type.name] = type;
@@ -76,6 +74,8 @@ TEST_CASE("schema and documentation know the same types and keys", "[scene]") {
                                  integrators = registry.integrator_names();
   CHECK(listed("object_type") == std::set<std::string>(families.begin(), families.end()));
   CHECK(listed("integrator_type") == std::set<std::string>(integrators.begin(), integrators.end()));
+  const std::vector<std::string> layers = registry.layer_names();
+  CHECK(listed("layer_type") == std::set<std::string>(layers.begin(), layers.end()));
   CHECK(types >= 5 + 3 + 4 + 4 + 2);
   for (const char* part : {"film", "sampling", "scene"}) {
     CAPTURE(part);
