@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/bezier/tangents_in.h"
 
 namespace rondure {
 namespace {
@@ -90,12 +91,36 @@ dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
   return evaluate(p, std::max(u, inset), std::max(v, inset), std::max(1.0 - u - v, inset)).value;
 }
 
-// The value, or where it vanishes its limit from inside.
+// The value where its terms do not cancel: where it is good to 1e-13 or so. On the boundary only those terms
+// remain that vanish nowhere along it; where none do, the limit from inside. Zero where terms cancel.
 template <class Polynomial>
 dvec3 value_or_limit(const Polynomial& p, double u, double v) {
-  constexpr double vanishing = 1e-6;  // leaves nine digits of a value's rounding
+  constexpr double cancelled = 1e-2;
   const Sum sum = evaluate(p, u, v);
-  return largest_component(sum.value) > vanishing * sum.terms ? sum.value : value_inside(p, u, v);
+  if (largest_component(sum.value) > cancelled * sum.terms) return sum.value;
+  return sum.terms == 0.0 ? value_inside(p, u, v) : dvec3(0.0);
+}
+
+#ifdef __SIZEOF_FLOAT128__
+using Quadruple = __float128;
+#else
+using Quadruple = long double;
+#endif
+
+// The cross product of the tangents in some 33 digits, as a vector of size 1 or so; zero where they are noise
+// too.
+dvec3 crossed_exactly(const Net& net, double u, double v) {
+  const TangentsIn<Quadruple> t = tangents_in<Quadruple>(net, u, v);
+  const Vector3In<Quadruple> n = cross_in(t.du, t.dv);
+  const auto largest = [](const Vector3In<Quadruple>& a) {
+    Quadruple m = 0;
+    for (const Quadruple& x : a) m = std::max(m, x < 0 ? -x : x);
+    return m;
+  };
+  const Quadruple size = largest(n), noise = largest(t.du) * largest(t.dv) * static_cast<Quadruple>(1e-17);
+  if (!(size > noise)) return dvec3(0.0);
+  return {static_cast<double>(n[0] / size), static_cast<double>(n[1] / size),
+          static_cast<double>(n[2] / size)};
 }
 
 dvec3 unit_or_zero(const dvec3& n) {
@@ -184,8 +209,8 @@ int degree_of(const Net& net) {
   return std::get<TriangleNet>(net).n;
 }
 
-constexpr double singular = 1e-4;
-constexpr double accurate = 1e-11;  // of the relative error of a cross product
+constexpr double singular = 2e-3;
+constexpr double accurate = 1e-12;  // of the relative error of a cross product
 
 // The cross product of the tangents in units of the net's spread, in which it neither overflows nor
 // underflows.
@@ -236,7 +261,15 @@ dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f
   const dvec3 value =
       unit_or_zero(std::visit([&](const auto& p) { return value_or_limit(p, u, v); }, polynomial));
   const dvec3 limit = f.value.w < 0.0 ? -value : value;
-  return glm::distance(limit, crossed) > 8.0 * error ? crossed : limit;
+  if (limit == dvec3(0.0) || glm::distance(limit, crossed) > 8.0 * error) {
+    // Inside the domain, where only more digits help. At the singular point itself these end, too.
+    const dvec3 exact = unit_or_zero(crossed_exactly(net, u, v));
+    if (exact != dvec3(0.0)) return exact;
+    const dvec3 last =
+        unit_or_zero(std::visit([&](const auto& p) { return value_inside(p, u, v); }, polynomial));
+    return f.value.w < 0.0 ? -last : last;
+  }
+  return limit;
 }
 
 dvec3 unit_normal(const Net& net, double u, double v) { return unit_normal(net, u, v, net_first(net, u, v)); }
@@ -245,8 +278,9 @@ Curvature curvature(const Net& net, double u, double v) {
   const FirstOrder<dvec4> first = net_first(net, u, v);
   const Tangents t = tangents(first);
   const double scale = spread(net, t.point);
-  if (!(glm::length(relative_cross(t, scale)) > singular) &&
-      !(cross_error(net, u, v, first, t) <= accurate)) {
+  constexpr double near_singular = 1e-4, known = 1e-11;
+  if (!(glm::length(relative_cross(t, scale)) > near_singular) &&
+      !(cross_error(net, u, v, first, t) <= known)) {
     constexpr double step = 1e-4;
     if (std::holds_alternative<TensorNet>(net)) {
       u = std::clamp(u, step, 1.0 - step);

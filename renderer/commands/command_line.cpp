@@ -158,6 +158,23 @@ void add_export(CLI::App& program, CommandLine& line) {
       ->type_name("NAME");
 }
 
+void add_study(CLI::App& program, CommandLine& line) {
+  const auto [command, options] = add<StudyCommand>(
+      program, line, "study", "Measure what parametrisation and precision do to normals, hits and pictures",
+      run_study);
+  command->add_option("study", options->study, "corner-normals, parametrisation or precision")
+      ->type_name("STUDY")
+      ->required();
+  command
+      ->add_option("--families", options->families,
+                   "Families, separated by commas; all of the study's by default")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  command->add_option("-o,--output", options->output, "Folder (the study's name in this folder by default)");
+  command->add_flag("--quick", options->quick, "Fewer places and smaller pictures, within a minute");
+  command->add_flag("--quiet", options->quiet, "No progress");
+}
+
 void add_validate(CLI::App& program, CommandLine& line) {
   const auto [command, options] = add<SceneOptions>(
       program, line, "validate", "Check a scene and say what is wrong with it", run_validate);
@@ -226,6 +243,7 @@ CommandLine read_command_line(int argc, char** argv) {
   add_eval(program, line);
   add_info(program, line);
   add_export(program, line);
+  add_study(program, line);
   add_validate(program, line);
   add_list(program, line);
   add_describe(program, line);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "renderer/api/registry.h"
 #include "renderer/scene/overrides.h"
@@ -61,6 +62,14 @@ struct ExportCommand {
   std::string form = "triangles";
 };
 void run_export(const Registry& registry, const ExportCommand& options);
+
+struct StudyCommand {
+  std::string study;                  // corner-normals, parametrisation or precision
+  std::vector<std::string> families;  // all where there are none
+  std::string output;                 // a folder; the study's name where it is empty
+  bool quick = false, quiet = false;
+};
+void run_study(const Registry& registry, const StudyCommand& options);
 
 void run_validate(const Registry& registry, const SceneOptions& options);
 void run_list(const Registry& registry);

@@ -1,6 +1,7 @@
 // The film's extra layers: where they come from, and that they depend on nothing but the pixel.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
 #include <ImfInputFile.h>
 
 #include "renderer/film/exr.h"
@@ -71,7 +72,9 @@ TEST_CASE("the file holds the layers under their names", "[layers]") {
   const std::string path = fresh_folder("layers_exr") + "/a.exr";
   write_exr(path, film, {});
   Imf::InputFile file(path.c_str());
-  CHECK(std::distance(file.header().channels().begin(), file.header().channels().end()) == 21 + 6);
+  int channels = 0;
+  for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) ++channels;
+  CHECK(channels == 21 + 6);
   std::vector<float> values(film.geometry.size());
   Imf::FrameBuffer buffer;
   buffer.insert("Again.condition", Imf::Slice::Make(Imf::FLOAT, values.data(), file.header().dataWindow()));
@@ -107,7 +110,7 @@ TEST_CASE("a layer that gives no number ends the render, an infinite one is stor
   CHECK_THROWS_WITH(s.render(1), "the layer \"Own.x\" gave no number for a pixel");
 }
 
-TEST_CASE("--layers names the film's layers and keeps their parameters", "[layers]") {
+TEST_CASE("an override names the film's layers and keeps their parameters", "[layers]") {
   SceneOverrides overrides;
   overrides.layers = {"jacobian"};
   const StagedScene kept(layered_scene, overrides);
@@ -118,7 +121,7 @@ TEST_CASE("--layers names the film's layers and keeps their parameters", "[layer
   overrides.layers = {"jacobien"};
   CHECK(first_line(message_of([&] {
           read_scene_text("s.json", layered_scene, StagedScene::builtins(), overrides);
-        })) == "s.json: unknown layer \"jacobien\"; did you mean \"jacobian\"?");
+        })) == "s.json: unknown layer \"jacobien\"; did you mean \"jacobian\"? (set on the command line)");
 }
 
 }  // namespace

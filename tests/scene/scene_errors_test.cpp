@@ -55,7 +55,7 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
        "s.json:1:35: layers[1]: the film has a channel \"Jacobian.sine\" already; name this one's group by "
        "\"as\""},
       {"{ \"film\": {\"layers\": [{\"type\": \"jacobian\", \"as\": \"a b\"}]} }",
-       "s.json:1:49: \"as\" must be a name of letters, digits and underscores, which the layer's channels "
+       "s.json:1:50: \"as\" must be a name of letters, digits and underscores, which the layer's channels "
        "begin with"},
       {"{ \"sampling\": {\"spp\": 0} }",
        "s.json:1:23: \"spp\" must be an integer in [1, 1073741824], found 0"},

@@ -205,7 +205,7 @@ TEST_CASE("overrides that cannot be applied say which", "[scene]") {
        "command line)"},
       {"/objects/0/colour=3",
        "s.json: unknown key \"colour\" in objects[0]; known keys: \"center\", \"isolines\", \"material\", "
-       "\"name\", "
+       "\"name\", \"normals\", "
        "\"radius\", "
        "\"show\", \"solver\", \"transform\", \"type\", \"wire\", \"wire_material\" (set on the command "
        "line)"},

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <variant>
+#include <vector>
 
 #include "renderer/api/patch.h"
 #include "renderer/bezier/bernstein.h"

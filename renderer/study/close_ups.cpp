@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "renderer/normals/estimator.h"
+#include "renderer/sampling/warps.h"
+#include "renderer/study/corner_normals.h"
+#include "renderer/study/picture.h"
+
+namespace rondure {
+namespace {
+
+std::string vector_text(const dvec3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x, v.y, v.z); }
+
+dvec3 vector_at(const Table& sites, std::size_t row, const char* x, const char* y, const char* z) {
+  return {sites.number(row, x), sites.number(row, y), sites.number(row, z)};
+}
+
+// Straight down on the site, in light at 89 degrees to the normal: what turns the normal by an angle changes the
+// light by 57 times that.
+std::string scene_of(const Subject& subject, const dvec3& point, const dvec3& normal, double pixel,
+                     int side) {
+  const Frame frame = frame_about(normal);
+  const double angle = 89.0 * std::numbers::pi / 180.0;
+  const dvec3 light = std::cos(angle) * normal + std::sin(angle) * frame.x;
+  const double irradiance = 0.5 * std::numbers::pi / (0.8 * std::cos(angle));  // makes the true radiance 0.5
+  std::string object = subject.object;
+  object.replace(object.find('{'), 1, "{ \"material\": \"white\",");
+  return fmt::format(R"({{
+  "camera": {{ "type": "orthographic", "origin": {}, "target": {}, "up": {}, "height": {:.17g} }},
+  "film": {{ "resolution": [{}, {}], "filter": "box" }},
+  "sampling": {{ "spp": 4, "seed": 1 }},
+  "integrator": "direct",
+  "materials": {{ "white": {{ "albedo": 0.8 }} }},
+  "lights": [ {{ "type": "directional", "direction": {}, "irradiance": {:.17g} }} ],
+  "objects": [ {} ]
+}}
+)",
+                     vector_text(point + 2.0 * normal), vector_text(point), vector_text(frame.y),
+                     pixel * side, side, side, vector_text(-light), irradiance, object);
+}
+
+std::string error_integrator(const std::string& reference) {
+  return fmt::format(
+      R"({{"type": "study", "layer": "normal_error", "channel": "{}", "scale": "log", "range": [1e-12, 10]}})",
+      reference);
+}
+
+double largest_difference(const Film& a, const Film& b) {
+  double worst = 0.0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const dvec3 d = a.mean(x, y).color - b.mean(x, y).color;
+      worst = std::max({worst, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    }
+  }
+  return worst;
+}
+
+long missed_pixels(const Film& film) {
+  long missed = 0;
+  for (const PixelGeometry& g : film.geometry) missed += g.surface < 0;
+  return missed;
+}
+
+}  // namespace
+
+namespace {
+
+// Pictures of one scene by every estimator, taken when first asked for.
+class Taker {
+ public:
+  Taker(const std::string& scene, std::string file, const Registry& registry, const Tracer& tracer)
+      : scene_(scene), file_(std::move(file)), registry_(registry), tracer_(tracer) {}
+
+  Film shaded(const std::string& normals) const {
+    SceneOverrides overrides;
+    overrides.normals = normals;
+    return take_picture(scene_, file_, registry_, tracer_, overrides);
+  }
+  Film error(const std::string& normals, const std::string& reference) const {
+    SceneOverrides overrides;
+    overrides.normals = normals;
+    overrides.set = {"/integrator=" + error_integrator(reference)};
+    return take_picture(scene_, file_, registry_, tracer_, overrides);
+  }
+  const Film& truth(const std::string& reference) {
+    if (!truth_) truth_ = shaded(reference);
+    return *truth_;
+  }
+
+ private:
+  const std::string& scene_;
+  std::string file_;
+  const Registry& registry_;
+  const Tracer& tracer_;
+  std::optional<Film> truth_;
+};
+
+// "off missed rejected" as text.
+std::string counts_of(const Film& shaded, const Film& truth, bool whole) {
+  return fmt::format("{:.17g} {} {}", largest_difference(shaded, truth), whole ? missed_pixels(shaded) : -1,
+                     shaded.rejected);
+}
+
+}  // namespace
+
+CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
+                        const std::string& group, const StudyFolder& folder, const StudyOptions& options) {
+  const dvec3 point = vector_at(sites, row, "x", "y", "z"), normal = vector_at(sites, row, "ax", "ay", "az");
+  const int side = options.quick ? 24 : 48, zoom = 96 / side;
+  const std::vector<double> pixels =
+      options.quick ? std::vector{1e-4, 1e-8} : std::vector{1e-2, 1e-4, 1e-6, 1e-8};
+  const std::string stem = fmt::format("{}-{}", subject.name, sites.at(row, "site"));
+  const Tracer tracer = tracer_for(scene_of(subject, point, normal, pixels.front(), side), stem, registry);
+  const NormalField field(tracer.surfaces().front().surface);
+  const bool quadric = field.quadric(static_cast<int>(sites.number(row, "patch"))) != nullptr;
+  CloseUps result{subject.name, group, quadric ? "analytic" : "limit", {}};
+  for (const double pixel : pixels) {
+    const std::string scene = scene_of(subject, point, normal, pixel, side);
+    const std::string file = fmt::format("{}-{:.0e}.json", stem, pixel);
+    folder.write(file, scene);
+    Taker taker(scene, file, registry, tracer);
+    for (const std::string& name : estimator_names()) {
+      const std::string part = fmt::format("parts/{}-{:.0e}-{}", stem, pixel, name), key = scene + name;
+      std::optional<Film> film;
+      const auto shaded = [&]() -> const Film& {
+        if (!film) film = taker.shaded(name);
+        return *film;
+      };
+      CloseUp picture;
+      picture.estimator = name;
+      picture.pixel = pixel;
+      picture.shaded = folder.kept(part + ".png", key, [&] { return png_bytes(folder, shaded(), zoom); });
+      picture.error = folder.kept(part + "-error.png", key, [&] {
+        return png_bytes(folder, taker.error(name, result.reference), zoom);
+      });
+      std::istringstream(
+          folder.kept(part + ".txt", key,
+                      [&] { return counts_of(shaded(), taker.truth(result.reference), subject.sphere); })) >>
+          picture.off >> picture.missed >> picture.rejected;
+      picture.command = fmt::format("rondure render {} --normals {} --png close-up.png", file, name);
+      result.pictures.push_back(std::move(picture));
+    }
+  }
+  std::stable_sort(result.pictures.begin(), result.pictures.end(), [](const CloseUp& a, const CloseUp& b) {
+    return *estimator_named(a.estimator) < *estimator_named(b.estimator);
+  });
+  return result;
+}
+
+}  // namespace rondure

@@ -1,0 +1,90 @@
+#include "renderer/study/corner_normals.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "renderer/film/image.h"
+#include "renderer/render/interrupt.h"
+#include "renderer/render/progress.h"
+#include "renderer/study/gnuplot.h"
+
+namespace rondure {
+namespace {
+
+void stop_if_interrupted(Progress& progress, const StudyFolder& folder) {
+  if (!interrupted()) return;
+  progress.clear();
+  throw std::runtime_error(
+      fmt::format("interrupted; what is done is kept in {}, and the same command goes on", folder.path("")));
+}
+
+// From files of an earlier run if they are of the same subject.
+CornerTables kept_corners(const Subject& subject, const Registry& registry, const StudyFolder& folder,
+                          const StudyOptions& options) {
+  const std::string key = fmt::format("{} quick {}", subject.object, options.quick);
+  std::optional<CornerTables> fresh;
+  const auto measured = [&]() -> const CornerTables& {
+    if (!fresh) fresh = measure_corners(subject, registry, options.quick);
+    return *fresh;
+  };
+  const std::string stem = "parts/" + subject.name;
+  CornerTables tables;
+  tables.summary = folder.kept(stem + ".txt", key, [&] { return measured().summary; });
+  tables.sites = Table(folder.kept(stem + "-sites.csv", key, [&] { return measured().sites.text(); }));
+  tables.walks = Table(folder.kept(stem + "-walks.csv", key, [&] { return measured().walks.text(); }));
+  return tables;
+}
+
+}  // namespace
+
+void study_corner_normals(const StudyOptions& options, const Registry& registry) {
+  std::vector<Subject> chosen;
+  for (const Subject& subject : subjects_named(options.families)) chosen.push_back(turned(subject));
+  require_gnuplot();
+  require_image_module();
+  const StudyFolder folder(options.output);
+  const StudyFolder parts(folder.path("parts"));
+  const InterruptGuard guard;
+  Table sites, walks;
+  std::vector<std::string> summaries;
+  std::vector<CloseUps> close_ups;
+  {
+    Progress progress("singular points", chosen.size(), progress_style(options.quiet));
+    for (const Subject& subject : chosen) {
+      const CornerTables tables = kept_corners(subject, registry, folder, options);
+      summaries.push_back(tables.summary);
+      sites.append(tables.sites);
+      walks.append(tables.walks);
+      progress.advance(1);
+      stop_if_interrupted(progress, folder);
+    }
+  }
+  const Table slopes = corner_slopes(walks);
+  folder.write("sites.csv", sites.text());
+  folder.write("walks.csv", walks.text());
+  folder.write("slopes.csv", slopes.text());
+
+  // The first site of each group.
+  std::vector<std::pair<const Subject*, std::size_t>> firsts;
+  std::set<std::string> seen;
+  for (std::size_t row = 0; row < sites.size(); ++row) {
+    for (const Subject& subject : chosen) {
+      if (subject.name != sites.at(row, "family")) continue;
+      if (seen.insert(subject.name + "/" + sites.at(row, "group")).second) firsts.emplace_back(&subject, row);
+    }
+  }
+  {
+    Progress progress("close-ups", firsts.size(), progress_style(options.quiet));
+    for (const auto& [subject, row] : firsts) {
+      close_ups.push_back(
+          take_close_ups(*subject, registry, sites, row, sites.at(row, "group"), folder, options));
+      progress.advance(1);
+      stop_if_interrupted(progress, folder);
+    }
+  }
+  folder.write("index.html", corner_page(sites, walks, slopes, summaries, close_ups, folder, options));
+}
+
+}  // namespace rondure

@@ -1,0 +1,62 @@
+// The study of normals at singular points: what `rondure study corner-normals` does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/api/registry.h"
+#include "renderer/study/folder.h"
+#include "renderer/study/subjects.h"
+#include "renderer/study/table.h"
+
+namespace rondure {
+
+struct StudyOptions {
+  std::vector<std::string> families;  // all when empty
+  std::string output;                 // folder
+  bool quick = false;
+  bool quiet = false;
+  std::string command;  // that reproduces the study, for the page
+};
+
+// Tables of one subject. `sites`: family, site, patch, u, v, x, y, z, place, kind, order, side_order, limit,
+// spread, nx, ny, nz. `walks`: family, site, group, way, distance, u, v, sine, condition, smallest,
+// reference, error_E and radiance_E for every estimator E, rays, hits, off, steps, undecided, cells. Angles
+// in radians.
+struct CornerTables {
+  Table sites, walks;
+  std::string summary;  // how the search for singular points ended
+};
+CornerTables measure_corners(const Subject& subject, const Registry& registry, bool quick);
+
+// family, group, estimator, slope, low, high, places, worst, at_1e-8, none, radiance: what the walks of one
+// group (sites of one kind in one place of a family) come to.
+Table corner_slopes(const Table& walks);
+
+// A close-up of one site by one estimator.
+struct CloseUp {
+  std::string estimator, command;
+  double pixel = 0.0;         // size, in radii
+  std::string shaded, error;  // PNG
+  double off = 0.0;           // largest difference of the shading from that by the reference
+  long missed = 0,
+       rejected = 0;  // pixels without a hit (-1 where the surface may end in the picture), samples
+};
+struct CloseUps {
+  std::string family, group;
+  std::string reference;          // what the shading is compared with: "analytic" or "limit"
+  std::vector<CloseUp> pictures;  // estimator by estimator, magnification by magnification
+};
+CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
+                        const std::string& group, const StudyFolder& folder, const StudyOptions& options);
+
+std::string corner_page(const Table& sites, const Table& walks, const Table& slopes,
+                        const std::vector<std::string>& summaries, const std::vector<CloseUps>& close_ups,
+                        const StudyFolder& folder, const StudyOptions& options);
+
+// Writes sites.csv, walks.csv, slopes.csv, the plots and index.html, and what the page's pictures are of.
+// Interrupted and started again it goes on where it was. Throws std::runtime_error for what is missing or
+// cannot be written.
+void study_corner_normals(const StudyOptions& options, const Registry& registry);
+
+}  // namespace rondure

@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "renderer/normals/estimator.h"
+#include "renderer/study/corner_normals.h"
+#include "renderer/study/gnuplot.h"
+#include "renderer/study/page.h"
+
+namespace rondure {
+namespace {
+
+// The rows of one group of the walks, and the largest value of a column at each distance.
+struct Group {
+  std::string family, name;
+  std::vector<std::size_t> rows;
+
+  std::string stem() const {
+    std::string out = family + "-" + name;
+    std::erase_if(out, [](char c) { return c == '(' || c == ')'; });
+    std::replace(out.begin(), out.end(), ' ', '-');
+    return out;
+  }
+};
+
+std::vector<Group> groups_of(const Table& walks) {
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < walks.size(); ++k) {
+    const std::string &family = walks.at(k, "family"), &name = walks.at(k, "group");
+    auto found = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.family == family && g.name == name; });
+    if (found == groups.end()) found = groups.insert(groups.end(), Group{family, name, {}});
+    found->rows.push_back(k);
+  }
+  return groups;
+}
+
+// Over all walks of a group, decade by half decade; `least` instead of the largest.
+Curve envelope(const Table& walks, const Group& group, const std::string& column, const std::string& name,
+               bool least = false) {
+  std::map<long, double> at;
+  for (const std::size_t row : group.rows) {
+    const double value = walks.number(row, column);
+    if (std::isnan(value)) continue;
+    const long place = std::lround(2.0 * std::log10(walks.number(row, "distance")));
+    const auto [known, fresh] = at.emplace(place, value);
+    if (!fresh) known->second = least ? std::min(known->second, value) : std::max(known->second, value);
+  }
+  Curve curve{name, {}, {}};
+  for (const auto& [place, value] : at) {
+    curve.x.push_back(std::pow(10.0, 0.5 * static_cast<double>(place)));
+    curve.y.push_back(value);
+  }
+  return curve;
+}
+
+std::string sites_section(const Table& sites, const std::vector<std::string>& summaries) {
+  std::string out = "<h2>Singular points</h2>\n<ul>\n";
+  for (const std::string& line : summaries) out += "<li>" + html_escaped(line) + "</li>\n";
+  out += "</ul>\n";
+  // One line for the sites of a group that are alike.
+  struct Line {
+    std::string family, group, order, limit;
+    int count = 0;
+    std::string first;
+    double spread = 0.0;
+  };
+  std::vector<Line> lines;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const std::string order =
+        sites.at(k, "side_order") == "0"
+            ? sites.at(k, "order")
+            : fmt::format("{} (side), {} (rest)", sites.at(k, "side_order"), sites.at(k, "order"));
+    const std::string limit = sites.at(k, "limit") == "1" ? "exists" : "does not exist";
+    const auto same = [&](const Line& l) {
+      return l.family == sites.at(k, "family") && l.group == sites.at(k, "group") && l.order == order &&
+             l.limit == limit;
+    };
+    auto line = std::find_if(lines.begin(), lines.end(), same);
+    if (line == lines.end()) {
+      const std::string first =
+          fmt::format("patch {}, ({}, {})", sites.at(k, "patch"), number_text(sites.number(k, "u"), 12),
+                      number_text(sites.number(k, "v"), 12));
+      line = lines.insert(lines.end(),
+                          Line{sites.at(k, "family"), sites.at(k, "group"), order, limit, 0, first, 0.0});
+    }
+    ++line->count;
+    line->spread = std::max(line->spread, sites.number(k, "spread"));
+  }
+  std::vector<std::vector<std::string>> rows = {
+      {"family", "kind (place)", "count", "order of the zero of Su &times; Sv", "limit normal",
+       "spread of the limits by way in (rad)", "first: patch, (u, v)"}};
+  for (const Line& l : lines)
+    rows.push_back({html_escaped(l.family), html_escaped(l.group), fmt::format("{}", l.count), l.order,
+                    l.limit, number_text(l.spread), l.first});
+  return out + html_table(rows);
+}
+
+std::string slopes_table(const Table& slopes, const Group& group) {
+  std::vector<std::vector<std::string>> rows = {
+      {"normals", "slope of log error over log distance", "fitted over", "places", "worst error (rad)",
+       "error at 10<sup>-8</sup> (rad)", "places without a normal", "worst radiance error"}};
+  for (std::size_t k = 0; k < slopes.size(); ++k) {
+    if (slopes.at(k, "family") != group.family || slopes.at(k, "group") != group.name) continue;
+    const double slope = slopes.number(k, "slope");
+    rows.push_back({slopes.at(k, "estimator"), std::isnan(slope) ? "-" : fmt::format("{:.3f}", slope),
+                    std::isnan(slope) ? "-"
+                                      : fmt::format("{} to {}", number_text(slopes.number(k, "low"), 2),
+                                                    number_text(slopes.number(k, "high"), 2)),
+                    slopes.at(k, "places"), number_text(slopes.number(k, "worst")),
+                    number_text(slopes.number(k, "at_1e-8")), slopes.at(k, "none"),
+                    number_text(slopes.number(k, "radiance"))});
+  }
+  return html_table(rows);
+}
+
+std::string solver_line(const Table& walks, const Group& group) {
+  double rays = 0, hits = 0, off = 0, steps = 0, undecided = 0, cells = 0, most_cells = 0;
+  for (const std::size_t row : group.rows) {
+    rays += walks.number(row, "rays");
+    hits += walks.number(row, "hits");
+    off = std::max(off, walks.number(row, "off"));
+    steps += walks.number(row, "steps");
+    undecided += walks.number(row, "undecided");
+    cells += walks.number(row, "cells");
+    most_cells = std::max(most_cells, walks.number(row, "cells"));
+  }
+  return fmt::format(
+      "<p>Rays aimed at the places of the walks, along the normal and at 60&deg; to it: {} of {} hit, at "
+      "most {} "
+      "extents of the surface off the place. A ray takes {} Newton steps, leaves {} leaves to clipping and "
+      "{} cells "
+      "there on average; two rays at one place take {} cells at most.</p>\n",
+      hits, rays, number_text(off), number_text(steps / rays), number_text(undecided / rays),
+      number_text(cells / rays), most_cells);
+}
+
+std::string plots(const Table& walks, const Group& group, const StudyFolder& folder) {
+  Plot errors{
+      group.family + ": " + group.name, "distance in the parameters", "error of the normal (rad)", {}};
+  Plot radiance{group.family + ": " + group.name, "distance in the parameters", "error of the radiance", {}};
+  for (const std::string& name : estimator_names()) {
+    errors.curves.push_back(envelope(walks, group, "error_" + name, name));
+    radiance.curves.push_back(envelope(walks, group, "radiance_" + name, name));
+  }
+  Plot conditioning{group.family + ": " + group.name, "distance in the parameters", "of the Jacobian", {}};
+  conditioning.curves = {envelope(walks, group, "sine", "least |Su x Sv| / (|Su| |Sv|)", true),
+                         envelope(walks, group, "smallest", "least singular value", true),
+                         envelope(walks, group, "condition", "largest condition"),
+                         envelope(walks, group, "cells", "most cells of clipping"),
+                         envelope(walks, group, "steps", "most Newton steps")};
+  const std::string stem = group.stem(), to = walks.at(group.rows.front(), "reference");
+  std::string out;
+  out += html_figure(
+      plot_svg(folder, stem + "-error", errors),
+      fmt::format("Angle to the {} normal, radians: the largest over all walks. Zeros are not drawn.", to));
+  out += html_figure(
+      plot_svg(folder, stem + "-radiance", radiance),
+      "Difference of max(0, n&middot;l) for light at 60&deg; to the true normal, of which it is 0.5.");
+  out += html_figure(plot_svg(folder, stem + "-conditioning", conditioning),
+                     "Conditioning of the parametrisation, and what two rays at each place cost.");
+  return out;
+}
+
+std::string close_up_section(const CloseUps& ups) {
+  std::vector<std::string> head = {"normals"};
+  for (const CloseUp& p : ups.pictures)
+    if (p.estimator == ups.pictures.front().estimator)
+      head.push_back(fmt::format("pixel = {:.0e} radii", p.pixel));
+  std::vector<std::vector<std::string>> rows = {head};
+  for (const CloseUp& p : ups.pictures) {
+    if (rows.back().front() != p.estimator || rows.size() == 1) rows.push_back({p.estimator});
+    const std::string missed = p.missed < 0 ? "" : fmt::format(", {} pixels missed", p.missed);
+    rows.back().push_back(
+        fmt::format("<div style=\"display:flex;gap:3px\">{}{}</div>off by {}{}, {} rejected",
+                    html_picture(p.shaded, p.estimator + ", shaded"),
+                    html_picture(p.error, p.estimator + ", error"), number_text(p.off), missed, p.rejected));
+  }
+  return html_figure(
+      html_table(rows),
+      fmt::format(
+          "Close-ups of the first of these points, straight down, in light at 89&deg; to the normal: left "
+          "the "
+          "shading, of which the true value is 0.5 (linear); right the angle to the {} normal, from "
+          "10<sup>-12</sup> (dark) to 10 degrees (bright), on a logarithmic scale. \"Off by\": the largest "
+          "difference of a pixel from the shading by the {} normal. 4 samples a pixel, seed 1. Each by "
+          "<code>{}</code>, the other files and normals alike.",
+          ups.reference, ups.reference, html_escaped(ups.pictures.front().command)));
+}
+
+}  // namespace
+
+std::string corner_page(const Table& sites, const Table& walks, const Table& slopes,
+                        const std::vector<std::string>& summaries, const std::vector<CloseUps>& close_ups,
+                        const StudyFolder& folder, const StudyOptions& options) {
+  std::string body =
+      "<p>What degenerate parametrisations do to normals. At each singular point the program walks in along "
+      "straight "
+      "lines of the parameters and compares what the estimators give with the gradient of the quadric that "
+      "the patch "
+      "lies on, or where there is none with the limit normal. All numbers are in <code>sites.csv</code>, "
+      "<code>walks.csv</code> and <code>slopes.csv</code>; angles in radians, distances in parameters (the "
+      "domain is "
+      "[0, 1]<sup>2</sup>, or a triangle of side 1). Every surface is turned by 40&deg; about (1, 2, 3): "
+      "along the axes some cross products come out right by chance. Slopes are fitted by least squares over "
+      "places with an "
+      "error "
+      "between 10 &times; 2<sup>-52</sup> and 0.1.</p>\n";
+  body += sites_section(sites, summaries);
+  for (const Group& group : groups_of(walks)) {
+    body += fmt::format("<h2>{}: {}</h2>\n", html_escaped(group.family), html_escaped(group.name));
+    body += slopes_table(slopes, group) + solver_line(walks, group) + plots(walks, group, folder);
+    for (const CloseUps& ups : close_ups)
+      if (ups.family == group.family && ups.group == group.name) body += close_up_section(ups);
+  }
+  return html_page("Normals at singular points", options.command, body);
+}
+
+}  // namespace rondure

@@ -1,0 +1,32 @@
+// The surfaces that the studies look at: every way to patch a sphere that ships, and what degenerates
+// otherwise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/api/registry.h"
+#include "renderer/scene/scene.h"
+
+namespace rondure {
+
+struct Subject {
+  std::string name;
+  std::string object;   // JSON: an entry of a scene's "objects"
+  bool sphere = false;  // the whole unit sphere about the origin
+};
+
+const std::vector<Subject>& subjects();
+
+// Those named, in the order of the table; all where none is named. Throws std::runtime_error for an unknown
+// name.
+std::vector<Subject> subjects_named(const std::vector<std::string>& names);
+
+// The same in general position. About the axes the tangents of many singular points are exactly along one of
+// them, and their cross product is right in any precision.
+Subject turned(Subject subject);
+
+// The subject alone, as its object says.
+Surface surface_of(const Subject& subject, const Registry& registry);
+
+}  // namespace rondure

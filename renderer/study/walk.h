@@ -1,0 +1,53 @@
+// Walks into singular points: what the estimators and the solvers make of ever smaller distances.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "renderer/intersect/tracer.h"
+#include "renderer/normals/normal_field.h"
+#include "renderer/study/singular_sites.h"
+
+namespace rondure {
+
+inline constexpr std::size_t estimator_count = 7;
+
+// One place on a walk. Angles in radians; NaN where there is no normal to compare with, or none given.
+struct WalkStep {
+  std::size_t site = 0;   // index of the singular point
+  double way = 0.0;       // direction of the walk in the parameters, degrees from the u axis
+  double distance = 0.0;  // from the singular point, in the parameters
+  dvec2 at{0.0};
+  double sine = 0.0, condition = 0.0, smallest = 0.0;  // |Su x Sv| / (|Su| |Sv|); of the Jacobian (Su Sv)
+  std::string reference;                        // "analytic" where the patch lies on a quadric, else "limit"
+  std::array<double, estimator_count> error{};  // angle to the reference, by estimator
+  std::array<double, estimator_count>
+      radiance{};  // |difference| of max(0, n . l), l at 60 degrees to the reference
+  // A ray aimed at the place along the normal, and one at 60 degrees to it.
+  int rays = 0, hits = 0;
+  double miss_distance =
+      0.0;  // the largest distance of a hit from the place, in units of the surface's extent
+  long steps = 0, undecided = 0, cells = 0;  // of Newton's method; leaves left to clipping; its cells
+};
+
+struct WalkOptions {
+  int ways = 3;        // directions into a site
+  int per_decade = 2;  // places
+  int decades = 14;    // from 10^-1
+};
+
+// All walks into one site. The field and the tracer are of the same surface, which is the tracer's only one.
+std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const Tracer& tracer,
+                           const SingularSite& site, std::size_t index, const WalkOptions& options);
+
+// The slope of log(error) over log(distance), by least squares over the places whose error lies between 10
+// times 2^-52 and 0.1; empty where there are fewer than four.
+struct Slope {
+  double value = 0.0;
+  double low = 0.0, high = 0.0;  // distances
+  int places = 0;
+};
+std::optional<Slope> fitted_slope(const std::vector<double>& distances, const std::vector<double>& errors);
+
+}  // namespace rondure

@@ -1,0 +1,97 @@
+// The limit normal at and around every singular point of every family that ships, against closed forms and 50
+// digits.
+#include <fmt/format.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/bezier/tangents_in.h"
+#include "renderer/normals/estimator.h"
+#include "renderer/study/singular_sites.h"
+#include "renderer/study/subjects.h"
+#include "tests/catch.h"
+#include "tests/render/staged_scene.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+using Wide = boost::multiprecision::cpp_bin_float_50;
+
+double angle_between(const dvec3& a, const dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+dvec3 unit(const Vector3In<Wide>& v) {
+  const Wide length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return {static_cast<double>(v[0] / length), static_cast<double>(v[1] / length),
+          static_cast<double>(v[2] / length)};
+}
+
+bool inside(const Net& net, dvec2 p) {
+  if (!(p.x >= 0.0 && p.y >= 0.0)) return false;
+  return std::holds_alternative<TensorNet>(net) ? p.x <= 1.0 && p.y <= 1.0 : p.x + p.y <= 1.0;
+}
+
+// The normal that the surface has at these parameters. Of a unit sphere: the point, taken in 50 digits;
+// rounding of the control points moves it by some 1e-16, whatever the parametrisation does. Of a cone about
+// the z axis: (x, y, -z) scaled. Otherwise that of the net as it is, of whole numbers.
+dvec3 reference(const std::string& family, const Net& net, dvec2 p) {
+  // Along a ruling of the cone the normal is the same; at its tip the point tells none.
+  const TangentsIn<Wide> t = tangents_in<Wide>(net, Wide(p.x), Wide(family == "cone_side" ? 0.0 : p.y));
+  const Vector3In<Wide>& x = t.point;
+  if (family == "cone_corner") return unit({x[0], x[1], -x[2]});
+  if (family == "cone_side") return unit({x[0], x[1], 1 - x[2]});
+  if (family == "cross_caps" || family == "gc1_cubic" || family == "gc1_rational")
+    return unit(cross_in(t.du, t.dv));
+  return unit(x);
+}
+
+TEST_CASE("the limit normal is right to 1e-12 at and around every singular point", "[normals]") {
+  std::size_t sites = 0, places = 0;
+  WorstCase worst;
+  for (const Subject& subject : subjects()) {
+    const Surface surface = surface_of(subject, StagedScene::builtins());
+    for (const SingularSite& site : singular_sites(surface).sites) {
+      ++sites;
+      const Net& net = surface.patches[static_cast<std::size_t>(site.patch)];
+      // Orientation is not in question, and is not the same for all references.
+      const double sign =
+          glm::dot(reference(subject.name, net, site.at + 0.2 * site.inward),
+                   unit_normal(net, site.at.x + 0.2 * site.inward.x, site.at.y + 0.2 * site.inward.y)) < 0.0
+              ? -1.0
+              : 1.0;
+      for (int way = 0; way < 16; ++way) {
+        const double angle = (way + 0.5) * std::numbers::pi / 8.0;
+        for (double d = 0.1; d > 1e-16; d *= std::sqrt(0.1)) {
+          const dvec2 at = site.at + d * dvec2(std::cos(angle), std::sin(angle));
+          // At a cross-cap, whose parameters no double is, 1e-9 is as near as the point itself is known.
+          if (!inside(net, at) || at == site.at || (site.place == "inside" && d < 1e-9)) continue;
+          const NormalEstimate n = limit_normal(net, at.x, at.y);
+          ++places;
+          const double error = n ? angle_between(*n, sign * reference(subject.name, net, at)) : 4.0;
+          worst.add(error, 1e-12, [&] {
+            return fmt::format("{} patch {} at {:.17g}, {:.17g}: {:.3g} rad", subject.name, site.patch, at.x,
+                               at.y, error);
+          });
+        }
+      }
+      // And at the point itself, where the sphere's normal is the point.
+      if (!subject.sphere) continue;
+      const double error =
+          site.limit ? angle_between(*site.limit, reference(subject.name, net, site.at)) : 4.0;
+      worst.add(error, 1e-12, [&] {
+        return fmt::format("{} patch {} at its site: {:.3g} rad", subject.name, site.patch, error);
+      });
+    }
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(sites > 30);
+  CHECK(places > 5000);
+}
+
+}  // namespace
+}  // namespace rondure
