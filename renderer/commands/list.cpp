@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 
 #include "renderer/commands/commands.h"
 #include "renderer/scene/scene_docs.h"
@@ -14,10 +16,14 @@ void run_list(const Registry& registry) {
   for (const TypeGroup& group : groups) {
     for (const TypeDoc& type : group.types) width = std::max(width, type.name.size());
   }
+  std::string text;
+  const auto out = std::back_inserter(text);
   for (const TypeGroup& group : groups) {
-    fmt::print("{}{}:\n", &group == &groups.front() ? "" : "\n", group.kind);
-    for (const TypeDoc& type : group.types) fmt::print("  {:{}}  {}\n", type.name, width, type.summary);
+    fmt::format_to(out, "{}{}:\n", &group == &groups.front() ? "" : "\n", group.kind);
+    for (const TypeDoc& type : group.types)
+      fmt::format_to(out, "  {:{}}  {}\n", type.name, width, type.summary);
   }
+  std::fputs(text.c_str(), stdout);  // fmt::print throws, in words of its own, once a buffer is full
 }
 
 }  // namespace rondure

@@ -31,7 +31,7 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{"rendr"}, "unknown command \"rendr\"; did you mean \"render\"?"},
       {{"frobnicate", "x.json"},
        "unknown command \"frobnicate\"; known: \"render\", \"trace\", \"eval\", \"info\", \"export\", "
-       "\"validate\", "
+       "\"study\", \"validate\", "
        "\"list\", "
        "\"describe\""},
       {{"--plugn", "x"}, "unknown option \"--plugn\"; did you mean \"--plugin\"?"},

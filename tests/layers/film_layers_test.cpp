@@ -121,7 +121,7 @@ TEST_CASE("an override names the film's layers and keeps their parameters", "[la
   overrides.layers = {"jacobien"};
   CHECK(first_line(message_of([&] {
           read_scene_text("s.json", layered_scene, StagedScene::builtins(), overrides);
-        })) == "s.json: unknown layer \"jacobien\"; did you mean \"jacobian\"? (set on the command line)");
+        })) == "s.json: layers[0]: unknown layer \"jacobien\"; did you mean \"jacobian\"? (set on the command line)");
 }
 
 }  // namespace

@@ -37,15 +37,21 @@ bool inside(const Net& net, dvec2 p) {
 
 // The normal that the surface has at these parameters. Of a unit sphere: the point, taken in 50 digits;
 // rounding of the control points moves it by some 1e-16, whatever the parametrisation does. Of a cone about
-// the z axis: (x, y, -z) scaled. Otherwise that of the net as it is, of whole numbers.
+// the z axis: (x, y, -z) scaled. Otherwise that of the net as it is.
 dvec3 reference(const std::string& family, const Net& net, dvec2 p) {
   // Along a ruling of the cone the normal is the same; at its tip the point tells none.
   const TangentsIn<Wide> t = tangents_in<Wide>(net, Wide(p.x), Wide(family == "cone_side" ? 0.0 : p.y));
   const Vector3In<Wide>& x = t.point;
   if (family == "cone_corner") return unit({x[0], x[1], -x[2]});
   if (family == "cone_side") return unit({x[0], x[1], 1 - x[2]});
-  if (family == "cross_caps" || family == "gc1_cubic" || family == "gc1_rational")
-    return unit(cross_in(t.du, t.dv));
+  if (family == "cross_caps" || family.starts_with("iss") || family == "gc1_cubic" ||
+      family == "gc1_rational") {
+    // A collapsed side's control points are equal, bit by bit; 1e-25 inside the tangents have their limits.
+    const Wide step("1e-25"), third = Wide(1) / 3;
+    const TangentsIn<Wide> in =
+        tangents_in<Wide>(net, p.x + step * (third - p.x), p.y + step * (third - p.y));
+    return unit(cross_in(in.du, in.dv));
+  }
   return unit(x);
 }
 
