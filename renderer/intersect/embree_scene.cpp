@@ -28,7 +28,8 @@ struct QueryContext {
 };
 
 struct GeometryData {
-  const std::vector<Box>* boxes;
+  const std::vector<Box>* boxes;  // the caller's, and read during the commit only
+  std::vector<LeafName> names;
   double pad;
   EmbreeScene::Visitor visitor;
 };
@@ -51,7 +52,8 @@ void intersect_leaf(const RTCIntersectFunctionNArguments* args) noexcept {
   if (args->valid[0] == 0) return;
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
   void* query = reinterpret_cast<QueryContext*>(args->context)->query;
-  data.visitor(query, args->geomID, args->primID,
+  const LeafName& name = data.names[args->primID];
+  data.visitor(query, name.surface, name.leaf,
                RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
 }
 
@@ -60,7 +62,8 @@ void occlude_leaf(const RTCOccludedFunctionNArguments* args) noexcept {
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
   void* query = reinterpret_cast<QueryContext*>(args->context)->query;
   float& far = RTCRayN_tfar(args->ray, args->N, 0);
-  if (data.visitor(query, args->geomID, args->primID, far)) far = -std::numeric_limits<float>::infinity();
+  const LeafName& name = data.names[args->primID];
+  if (data.visitor(query, name.surface, name.leaf, far)) far = -std::numeric_limits<float>::infinity();
 }
 
 template <class EmbreeRay>
@@ -100,7 +103,7 @@ struct EmbreeScene::Implementation {
   std::atomic<std::ptrdiff_t> bytes{0};
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  std::vector<GeometryData> data;
+  GeometryData data;
 
   ~Implementation() {
     if (scene) rtcReleaseScene(scene);
@@ -108,7 +111,8 @@ struct EmbreeScene::Implementation {
   }
 };
 
-EmbreeScene::EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radius, Visitor visitor)
+EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius,
+                         Visitor visitor)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.device = rtcNewDevice(nullptr);
@@ -116,21 +120,18 @@ EmbreeScene::EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radi
     throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);
   self.scene = rtcNewScene(self.device);
-  self.data.resize(boxes.size());
-  for (std::size_t k = 0; k < boxes.size(); ++k) {
-    self.data[k] = {&boxes[k], 0x1p-19 * radius, visitor};
-    RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes[k].size()));
-    rtcSetGeometryUserData(geometry, &self.data[k]);
-    rtcSetGeometryBoundsFunction(geometry, bounds_of_leaf, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, intersect_leaf);
-    rtcSetGeometryOccludedFunction(geometry, occlude_leaf);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(self.scene, geometry, static_cast<unsigned>(k));
-    rtcReleaseGeometry(geometry);
-  }
+  self.data = {&boxes, std::move(names), 0x1p-19 * radius, visitor};
+  RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
+  rtcSetGeometryUserData(geometry, &self.data);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of_leaf, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_leaf);
+  rtcSetGeometryOccludedFunction(geometry, occlude_leaf);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(self.scene, geometry);
+  rtcReleaseGeometry(geometry);
   rtcCommitScene(self.scene);
-  for (GeometryData& data : self.data) data.boxes = nullptr;  // the caller's, and read during the commit only
+  self.data.boxes = nullptr;
   if (const RTCError error = rtcGetDeviceError(self.device); error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree: building the hierarchy failed, error " + std::to_string(error));
 }
@@ -170,6 +171,9 @@ bool EmbreeScene::visit_any(const dvec3& origin, const dvec3& direction, double 
   return ray.tfar < 0.0f;
 }
 
-std::size_t EmbreeScene::bytes() const { return static_cast<std::size_t>(implementation_->bytes.load()); }
+std::size_t EmbreeScene::bytes() const {
+  return static_cast<std::size_t>(implementation_->bytes.load()) +
+         implementation_->data.names.size() * sizeof(LeafName);
+}
 
 }  // namespace rondure

@@ -18,6 +18,12 @@
 
 namespace rondure {
 
+// A leaf of a surface; `whole`: all of the surface, which has a hierarchy of its own.
+struct LeafName {
+  static constexpr unsigned whole = ~0u;
+  unsigned surface, leaf;
+};
+
 class EmbreeScene {
  public:
   // Called for each leaf whose box the ray may meet. Sees `query` as it was given, and lowers `far`
@@ -25,9 +31,9 @@ class EmbreeScene {
   // an occlusion query.
   using Visitor = bool (*)(void* query, unsigned surface, unsigned leaf, float& far) noexcept;
 
-  // boxes[s][k] bounds leaf k of surface s, in double, about the scene's centre; every corner is within
-  // `radius` of it.
-  EmbreeScene(const std::vector<std::vector<Box>>& boxes, double radius, Visitor visitor);
+  // boxes[k] bounds the leaf names[k], in double, about the scene's centre; every corner is within `radius`
+  // of it.
+  EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius, Visitor visitor);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

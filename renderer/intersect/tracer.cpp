@@ -11,11 +11,12 @@
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/ellipsoid.h"
-#include "renderer/intersect/embree_scene.h"
+#include "renderer/intersect/hierarchy.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/surface_crossing.h"
+#include "renderer/intersect/twins.h"
 
 namespace rondure {
 namespace {
@@ -23,9 +24,12 @@ namespace {
 // What a solver needs of one surface, beside its nets.
 struct CompiledSurface {
   LeafSet set;                      // empty for an analytic surface
+  Box bounds;                       // of all leaves
   std::vector<RadialPiece> radial;  // of the last leaves
   std::optional<Ellipsoid> ellipsoid;
-  dvec3 frame{0.0};
+  std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
+  const std::vector<Net>* nets = nullptr;
+  Solver solver = Solver::newton;
 };
 
 constexpr std::size_t cells_per_query = 1 << 15;
@@ -34,13 +38,12 @@ enum class Mode { closest, any, all };
 
 // One ray's way through the hierarchy; lives on the stack of the query.
 struct Query {
-  const std::vector<TracedSurface>* surfaces;
-  const std::vector<CompiledSurface>* compiled;
+  const CompiledSurface* const* compiled;  // one a surface
+  const dvec3* origins;                    // one a surface
   const Ray* ray;
   Mode mode;
-  double far_origin;  // t of the traversal's origin; the traversal's direction is the ray's times 1 /
-                      // `far_scale`
-  double far_scale;
+  Entry entry{};          // into the hierarchy that is being traversed
+  unsigned instance = 0;  // whose hierarchy that is, if it is not the scene's
   unsigned local_surface = ~0u;
   bool local_valid = false;
   LocalRay local{};
@@ -66,7 +69,7 @@ template <class Normal>
 Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
            const Crossing& c, float& far) {
   Hit hit;
-  const dvec3& frame = (*q.compiled)[surface].frame;
+  const dvec3& frame = q.origins[surface];
   if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return Taken::no;
   q.found = true;
   if (q.mode == Mode::any) return Taken::settled;
@@ -81,7 +84,7 @@ Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, 
   if (q.best && !nearer(hit, q.best)) return Taken::noted;
   hit.point = frame + point;
   q.best = hit;
-  far = std::min(far, round_far((hit.t + hit.t_error - q.far_origin) / q.far_scale));
+  far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
   return Taken::nearest;
 }
 
@@ -96,15 +99,18 @@ bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, con
   return taken == Taken::settled;
 }
 
-bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far) noexcept {
-  Query& q = *static_cast<Query*>(pointer);
-  const CompiledSurface& compiled = (*q.compiled)[surface];
+bool localise(Query& q, unsigned surface) {
   if (q.local_surface != surface) {
     q.local_surface = surface;
-    q.local_valid = make_local_ray(q.ray->origin, q.ray->direction, compiled.frame, q.local);
+    q.local_valid = make_local_ray(q.ray->origin, q.ray->direction, q.origins[surface], q.local);
     q.inverse_direction = 1.0 / q.local.direction;
   }
-  if (!q.local_valid) return false;
+  return q.local_valid;
+}
+
+bool visit_leaf(Query& q, unsigned surface, unsigned leaf_index, float& far) noexcept {
+  if (!localise(q, surface)) return false;
+  const CompiledSurface& compiled = *q.compiled[surface];
 
   if (compiled.ellipsoid) {
     EllipsoidHit hits[2];
@@ -121,11 +127,10 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
     return false;
   }
 
-  const TracedSurface& traced = (*q.surfaces)[surface];
   const Leaf& leaf = compiled.set.leaves[leaf_index];
-  const Net& net = traced.surface.patches[static_cast<std::size_t>(leaf.patch)];
+  const Net& net = (*compiled.nets)[static_cast<std::size_t>(leaf.patch)];
   const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
-  if (leaf_index < ordinary && traced.solver != Solver::clipping) {
+  if (leaf_index < ordinary && compiled.solver != Solver::clipping) {
     NewtonRoot found;
     const NewtonVerdict verdict = solve_by_newton(leaf, net, q.local, found, *q.counts);
     if (verdict == NewtonVerdict::root)
@@ -146,43 +151,61 @@ bool visit_leaf(void* pointer, unsigned surface, unsigned leaf_index, float& far
   return false;
 }
 
+bool visit_shared_leaf(void* pointer, unsigned, unsigned leaf, float& far) noexcept {
+  Query& q = *static_cast<Query*>(pointer);
+  return visit_leaf(q, q.instance, leaf, far);
+}
+
+// A surface that shares its leaves with others, in its own frame.
+bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
+  if (!localise(q, surface)) return false;
+  const Hierarchy& hierarchy = *q.compiled[surface]->hierarchy;
+  const Entry outer = q.entry;
+  const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max;
+  if (!hierarchy.enter(q.local, q.ray->t_min, t_max, q.entry)) return false;
+  q.instance = surface;
+  bool settled = false;
+  if (q.mode == Mode::any)
+    settled = hierarchy.visit_any(q.local, q.entry, &q);
+  else
+    hierarchy.visit_all(q.local, q.entry, &q);
+  q.entry = outer;
+  if (q.best) far = std::min(far, outer.round_far(q.best.t + q.best.t_error));
+  return settled;
+}
+
+bool visit(void* pointer, unsigned surface, unsigned leaf, float& far) noexcept {
+  Query& q = *static_cast<Query*>(pointer);
+  return leaf == LeafName::whole ? visit_instance(q, surface, far) : visit_leaf(q, surface, leaf, far);
+}
+
 }  // namespace
 
 struct Tracer::Implementation {
   std::vector<TracedSurface> surfaces;
-  std::vector<CompiledSurface> compiled;
-  dvec3 center{0.0};
-  double radius = 0.0;
-  double unit = 1.0;  // power of two that brings the radius to [1, 2): what the hierarchy sees
+  std::vector<CompiledSurface> distinct;         // those that are the first of their twins (twins.h)
+  std::vector<const CompiledSurface*> compiled;  // one a surface, among these
+  std::vector<dvec3> origins;
   std::size_t leaf_count = 0;
-  std::unique_ptr<EmbreeScene> embree;
+  std::unique_ptr<Hierarchy> hierarchy;
 
-  // Where the ray enters the scene's bounding sphere. False when it misses it.
-  bool enter(const Ray& ray, Query& q, dvec3& origin, dvec3& direction, double& far) const {
+  // Meets every leaf that the ray may hit. True when an occlusion query is settled.
+  bool visit(Query& q) const {
     LocalRay global;
-    if (!embree || !make_local_ray(ray.origin, ray.direction, center, global)) return false;
-    const dvec3 base = global.base * unit;
-    const double b2 = glm::dot(base, base), r = radius * unit * (1.0 + 1e-9);
-    if (!(b2 <= r * r)) return false;
-    const double half = std::sqrt((r * r - b2) / global.length2);
-    const double start = (ray.t_min / global.scale - global.slide) * unit,
-                 end = (ray.t_max / global.scale - global.slide) * unit;
-    // A start on a surface may lie an error bound behind the first root that counts.
-    const double near = std::max(start - 1e-9 * half, -half);
-    if (!(near <= half) || !(end >= near)) return false;
-    origin = base + near * global.direction;
-    direction = global.direction;
-    far = std::min(half, end) - near;
-    q.far_origin = (global.slide + near / unit) * global.scale;
-    q.far_scale = global.scale / unit;
-    return true;
+    if (!hierarchy || !make_local_ray(q.ray->origin, q.ray->direction, hierarchy->center(), global))
+      return false;
+    if (!hierarchy->enter_at_center(global, q.ray->t_min, q.ray->t_max, q.entry)) return false;
+    if (q.mode == Mode::any) return hierarchy->visit_any(global, q.entry, &q);
+    hierarchy->visit_all(global, q.entry, &q);
+    return false;
   }
 
   // What only a hit that is reported needs: the parameters of an analytic surface.
   void finish(Hit& hit) const {
-    const CompiledSurface& surface = compiled[static_cast<std::size_t>(hit.surface)];
+    const auto index = static_cast<std::size_t>(hit.surface);
+    const CompiledSurface& surface = *compiled[index];
     if (!surface.ellipsoid) return;
-    const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - surface.frame);
+    const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - origins[index]);
     hit.u = p.x, hit.v = p.y;
   }
 
@@ -190,8 +213,8 @@ struct Tracer::Implementation {
   void finish(Query& q) const {
     finish(q.best);
     const auto index = static_cast<std::size_t>(q.best.surface);
-    if (compiled[index].ellipsoid) return;
-    const Net& net = surfaces[index].surface.patches[static_cast<std::size_t>(q.best.patch)];
+    if (compiled[index]->ellipsoid) return;
+    const Net& net = (*compiled[index]->nets)[static_cast<std::size_t>(q.best.patch)];
     q.best.normal = unit_normal(net, q.best.u, q.best.v, q.best_first);
   }
 
@@ -201,7 +224,7 @@ struct Tracer::Implementation {
     q.counts = &thread_counts();
     SearchCounts& search = q.counts->search;
     search.limit = search.cells + cells_per_query;
-    q.surfaces = &surfaces, q.compiled = &compiled, q.ray = &ray, q.mode = mode;
+    q.compiled = compiled.data(), q.origins = origins.data(), q.ray = &ray, q.mode = mode;
     return q;
   }
 };
@@ -210,8 +233,6 @@ namespace {
 
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
-// Beyond these, squares and products of coordinates leave the range of doubles.
-constexpr double smallest_scene = 1e-60, largest_scene = 1e60;
 constexpr int deepest = 11, shallowest = 2;
 // Quarterings of a patch with a radial form: their boxes let enough rays by; more cost more than they save.
 constexpr int radial_depth = 2;
@@ -219,7 +240,8 @@ constexpr int radial_depth = 2;
 CompiledSurface compile(const TracedSurface& traced, int max_depth) {
   const Surface& surface = traced.surface;
   CompiledSurface compiled;
-  compiled.frame = surface.origin;
+  compiled.nets = &surface.patches;
+  compiled.solver = traced.solver;
   if (surface.ellipsoid) {
     compiled.ellipsoid.emplace(*surface.ellipsoid);
     const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
@@ -235,7 +257,21 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth) {
         add_radial_leaves(surface.patches[k], static_cast<int>(k), std::min(radial_depth, max_depth / 2),
                           compiled.set, compiled.radial);
   }
+  for (const Box& box : compiled.set.boxes) compiled.bounds.add(box);
   return compiled;
+}
+
+// Of the leaves of surfaces that share them; none of a single leaf.
+std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled) {
+  if (compiled.set.boxes.size() < 2) return nullptr;
+  const dvec3 center = compiled.bounds.center();
+  std::vector<Box> boxes;
+  std::vector<LeafName> names;
+  for (const Box& box : compiled.set.boxes) {
+    names.push_back({0, static_cast<unsigned>(boxes.size())});
+    boxes.push_back({box.low - center, box.high - center});
+  }
+  return std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit_shared_leaf);
 }
 
 }  // namespace
@@ -243,51 +279,62 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth) {
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.surfaces = std::move(surfaces);
-  const std::size_t count = self.surfaces.size();
+  const auto count = static_cast<unsigned>(self.surfaces.size());
+  const std::vector<unsigned> twins = find_twins(self.surfaces);
+  std::vector<unsigned> firsts, twin_counts(count);
   std::size_t patches = 1;
-  for (const TracedSurface& traced : self.surfaces) patches += traced.surface.patches.size();
+  for (unsigned k = 0; k < count; ++k) {
+    if (++twin_counts[twins[k]]; twins[k] != k) continue;
+    firsts.push_back(k);
+    patches += self.surfaces[k].surface.patches.size();
+  }
   const int depth = std::clamp(static_cast<int>(std::log2(leaf_budget / static_cast<double>(patches))),
                                shallowest, deepest);
 
+  self.distinct.resize(firsts.size());
   self.compiled.resize(count);
-  std::vector<std::string> errors(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+  std::vector<std::string> errors(firsts.size());
+  tbb::parallel_for(std::size_t{0}, firsts.size(), [&](std::size_t k) {
     try {
-      self.compiled[k] = compile(self.surfaces[k], depth);
+      CompiledSurface& compiled = self.distinct[k];
+      self.compiled[firsts[k]] = &compiled;
+      compiled = compile(self.surfaces[firsts[k]], depth);
+      if (twin_counts[firsts[k]] > 1) compiled.hierarchy = hierarchy_of(compiled);
     } catch (const std::runtime_error& error) {
       errors[k] = error.what();
     }
   });
   // The first in the scene's order, whichever thread met its own first.
-  for (std::size_t k = 0; k < count; ++k)
-    if (!errors[k].empty()) throw SurfaceError(k, errors[k]);
+  for (std::size_t k = 0; k < firsts.size(); ++k)
+    if (!errors[k].empty()) throw SurfaceError(firsts[k], errors[k]);
 
   Box world;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (unsigned k = 0; k < count; ++k) {
+    self.compiled[k] = self.compiled[twins[k]];
     const dvec3& origin = self.surfaces[k].surface.origin;
-    for (const Box& box : self.compiled[k].set.boxes) world.add(Box{box.low + origin, box.high + origin});
-    self.leaf_count += self.compiled[k].set.boxes.size();
+    self.origins.push_back(origin);
+    const Box& bounds = self.compiled[k]->bounds;
+    if (!bounds.empty()) world.add(Box{bounds.low + origin, bounds.high + origin});
+    if (twins[k] == k) self.leaf_count += self.compiled[k]->set.boxes.size();
   }
-  if (self.leaf_count == 0) return;
-  self.center = world.center();
-  std::vector<std::vector<Box>> boxes(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    boxes[k] = self.compiled[k].set.boxes;
-    const dvec3 shift = self.compiled[k].frame - self.center;
-    for (Box& box : boxes[k]) {
-      box.low += shift, box.high += shift;
-      const dvec3 corner = glm::max(glm::abs(box.low), glm::abs(box.high));
-      self.radius = std::max(self.radius, std::sqrt(3.0) * largest(corner));
+  if (world.empty()) return;
+  const dvec3 center = world.center();
+  std::vector<Box> boxes;
+  std::vector<LeafName> names;
+  for (unsigned k = 0; k < count; ++k) {
+    const CompiledSurface& compiled = *self.compiled[k];
+    const dvec3 shift = self.origins[k] - center;
+    const auto add = [&](const Box& box, unsigned leaf) {
+      boxes.push_back({box.low + shift, box.high + shift});
+      names.push_back({k, leaf});
+    };
+    if (compiled.hierarchy) {
+      add(compiled.bounds, LeafName::whole);
+      continue;
     }
+    for (unsigned leaf = 0; leaf < compiled.set.boxes.size(); ++leaf) add(compiled.set.boxes[leaf], leaf);
   }
-  if (!(self.radius >= smallest_scene && self.radius <= largest_scene))
-    throw std::runtime_error(fmt::format("the scene is too {}: its radius must be between {:g} and {:g}",
-                                         self.radius < smallest_scene ? "small" : "large", smallest_scene,
-                                         largest_scene));
-  self.unit = std::ldexp(1.0, -std::ilogb(self.radius));
-  for (std::vector<Box>& set : boxes)
-    for (Box& box : set) box.low *= self.unit, box.high *= self.unit;
-  self.embree = std::make_unique<EmbreeScene>(boxes, self.radius * self.unit, visit_leaf);
+  self.hierarchy = std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit);
 }
 
 Tracer::~Tracer() = default;
@@ -296,20 +343,14 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 Hit Tracer::closest(const Ray& ray) const noexcept {
   Query q = implementation_->make_query(ray, Mode::closest);
-  dvec3 origin, direction;
-  double far;
-  if (!implementation_->enter(ray, q, origin, direction, far)) return {};
-  implementation_->embree->visit_all(origin, direction, far, &q);
+  implementation_->visit(q);
   if (q.best) implementation_->finish(q);
   return q.best;
 }
 
 bool Tracer::occluded(const Ray& ray) const noexcept {
   Query q = implementation_->make_query(ray, Mode::any);
-  dvec3 origin, direction;
-  double far;
-  if (!implementation_->enter(ray, q, origin, direction, far)) return false;
-  return implementation_->embree->visit_any(origin, direction, far, &q);
+  return implementation_->visit(q);
 }
 
 std::vector<Hit> Tracer::all(const Ray& ray) const {
@@ -317,10 +358,7 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
   std::vector<int> signs;
   Query q = implementation_->make_query(ray, Mode::all);
   q.hits = &hits, q.signs = &signs;
-  dvec3 origin, direction;
-  double far;
-  if (!implementation_->enter(ray, q, origin, direction, far)) return {};
-  implementation_->embree->visit_all(origin, direction, far, &q);
+  implementation_->visit(q);
 
   std::vector<std::size_t> order(hits.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -346,8 +384,12 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
 }
 
 const std::vector<TracedSurface>& Tracer::surfaces() const { return implementation_->surfaces; }
-dvec3 Tracer::bounding_center() const { return implementation_->center; }
-double Tracer::bounding_radius() const { return implementation_->radius; }
+dvec3 Tracer::bounding_center() const {
+  return implementation_->hierarchy ? implementation_->hierarchy->center() : dvec3(0.0);
+}
+double Tracer::bounding_radius() const {
+  return implementation_->hierarchy ? implementation_->hierarchy->radius() : 0.0;
+}
 
 TracerStatistics Tracer::statistics() const {
   const Implementation& self = *implementation_;
@@ -358,9 +400,12 @@ TracerStatistics Tracer::statistics() const {
     s.patches += self.surfaces[k].surface.patches.size();
     for (const Net& net : self.surfaces[k].surface.patches)
       s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
-    s.bytes += self.compiled[k].set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
   }
-  if (self.embree) s.bytes += self.embree->bytes();
+  for (const CompiledSurface& compiled : self.distinct) {
+    s.bytes += compiled.set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
+    if (compiled.hierarchy) s.bytes += compiled.hierarchy->bytes();
+  }
+  if (self.hierarchy) s.bytes += self.hierarchy->bytes();
   return s;
 }
 

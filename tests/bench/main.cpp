@@ -14,6 +14,7 @@
 #include "tests/bench/embree_baselines.h"
 #include "tests/bench/radial.h"
 #include "tests/bench/ray_sets.h"
+#include "tests/bench/scale.h"
 #include "tests/surfaces/build_family.h"
 
 using namespace rondure;
@@ -73,18 +74,6 @@ void print_counts(const char* name, const Tracer& tracer, const std::vector<Ray>
       static_cast<double>(counts.newton.undecided) / n, static_cast<double>(counts.search.cells) / n);
 }
 
-// `count` cube tilings on a grid, 6 patches each.
-std::vector<TracedSurface> many_tilings(const Surface& tiling, int count) {
-  const int side = static_cast<int>(std::ceil(std::cbrt(count)));
-  std::vector<TracedSurface> out;
-  for (int k = 0; k < count; ++k) {
-    Surface surface = tiling;
-    surface.origin = 3.0 * dvec3(k % side, k / side % side, k / (side * side));
-    out.push_back({std::move(surface), Solver::newton});
-  }
-  return out;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -134,14 +123,6 @@ int main(int argc, char** argv) {
 
   print_radial(rounds);
 
-  fmt::print("\nbuild                     patches     leaves  seconds  patches/s  bytes/patch\n");
-  for (const int count : {1, 1000, 100'000}) {
-    std::vector<TracedSurface> surfaces = many_tilings(cube, count);
-    TracerStatistics statistics;
-    const double time = seconds([&] { statistics = Tracer(std::move(surfaces)).statistics(); });
-    const double patches = static_cast<double>(statistics.patches);
-    fmt::print("  cube tilings        {:>12} {:>10} {:>8.3f} {:>10.0f} {:>12.0f}\n", statistics.patches,
-               statistics.leaves, time, patches / time, static_cast<double>(statistics.bytes) / patches);
-  }
+  print_scale(rounds);
   return 0;
 }

@@ -1,0 +1,11 @@
+// Many surfaces: how fast they are built, what they take, and how much slower rays become, beside as many of
+// Embree's own spheres in the same places.
+#pragma once
+
+namespace rondure::bench {
+
+// Prints two tables, up to `most` tilings of six patches each (10^5 by default; 10^5 distinct ones take 2
+// GB).
+void print_scale(int rounds, int most = 100'000);
+
+}  // namespace rondure::bench
