@@ -33,6 +33,20 @@ bool weights_positive(const Net& net) {
 
 }  // namespace
 
+std::vector<Root> roots_of(const Complex& holonomy) {
+  const bool either = std::abs(holonomy + 1.0L) <= closes;
+  return either ? std::vector<Root>{Root::least, Root::other} : std::vector<Root>{Root::least};
+}
+
+bool all_straight(const std::vector<SphereArc>& arcs) {
+  for (std::size_t k = 0; k < arcs.size(); ++k) {
+    const lvec3 in = arcs[k].end_tangent(), out = arcs[(k + 1) % arcs.size()].start_tangent();
+    // Corners are good to ten digits, tangents to the share that arcs have of the circle.
+    if (glm::length(in - out) > 1e-6L) return false;
+  }
+  return true;
+}
+
 Surface best_image(const Params& params, const std::vector<Preimage>& candidates) {
   Surface surface;
   for (const Preimage& candidate : candidates) {

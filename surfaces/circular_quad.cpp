@@ -17,6 +17,11 @@ namespace {
 std::string why_not_biquadratic(const SphericalQuad& quad) {
   // The holonomy's argument is half of what the angles exceed 360 degrees by, up to 720.
   const long double degrees = std::arg(holonomy(quad)) * 2 * degrees_per_radian;
+  if (all_straight({quad.arc.begin(), quad.arc.end()}))
+    return "a biquadratic patch exists only where the interior angles add up to 360 degrees (Dietz, Hoschek, "
+           "Juettler 1993, corollary 3.12); here all four are 180 degrees: the sides run round one circle, "
+           "or "
+           "join smoothly. \"degree_2_4\" always exists";
   if (std::abs(degrees) > 360 - 1e-6L)
     return "these arcs have no biquadratic patch, but others of the same circles have: take the other arc of "
            "one circle (Dietz, Hoschek, Juettler 1993, theorem 3.9)";
@@ -40,8 +45,10 @@ std::vector<Preimage> candidates(Params& params, const SphericalQuad& quad) {
     if (exists) list.emplace_back(bilinear_preimage(quad, shape));
   }
   if (construction != "biquadratic") {
-    if (along != "u") list.emplace_back(linear_quadratic_preimage(quad));
-    if (along != "v") list.emplace_back(quadratic_linear_preimage(quad));
+    for (const Root root : roots_of(holonomy(quad))) {
+      if (along != "u") list.emplace_back(linear_quadratic_preimage(quad, root));
+      if (along != "v") list.emplace_back(quadratic_linear_preimage(quad, root));
+    }
   }
   return list;
 }
@@ -49,7 +56,12 @@ std::vector<Preimage> candidates(Params& params, const SphericalQuad& quad) {
 Surface build(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 4);
   const SphericalQuad quad{{arcs[0], arcs[1], arcs[2], arcs[3]}};
-  return best_image(params, candidates(params, quad));
+  Surface surface = best_image(params, candidates(params, quad));
+  surface.notes.push_back({"angle_excess",
+                           static_cast<double>(std::arg(holonomy(quad)) * 2 * degrees_per_radian),
+                           "degrees by which the interior angles exceed 360, up to 720; degree (2, 2) exists "
+                           "where it is 0"});
+  return surface;
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ namespace {
 
 std::string why_not_quadratic(const SphericalTriangle& triangle) {
   const long double degrees = std::arg(holonomy(triangle)) * 2 * degrees_per_radian;
+  if (all_straight({triangle.arc.begin(), triangle.arc.end()}))
+    return "a quadratic patch exists only where the interior angles add up to 180 degrees (Dietz, Hoschek, "
+           "Juettler 1993, section 3.5); here all three are 180 degrees: the sides run round one circle, or "
+           "join smoothly. \"degree_4\" always exists";
   if (std::abs(degrees) > 360 - 1e-6L)
     return "these arcs have no quadratic patch, but others of the same circles have: take the other arc of "
            "one circle";
@@ -33,13 +37,21 @@ std::vector<Preimage> candidates(Params& params, const SphericalTriangle& triang
     if (construction == "quadratic" && !exists) params.fail("construction", why_not_quadratic(triangle));
     if (exists) list.emplace_back(linear_preimage(triangle));
   }
-  if (construction != "quadratic") list.emplace_back(quadratic_preimage(triangle));
+  if (construction != "quadratic") {
+    for (const Root root : roots_of(holonomy(triangle)))
+      list.emplace_back(quadratic_preimage(triangle, root));
+  }
   return list;
 }
 
 Surface build(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 3);
-  return best_image(params, candidates(params, {{arcs[0], arcs[1], arcs[2]}}));
+  const SphericalTriangle triangle{{arcs[0], arcs[1], arcs[2]}};
+  Surface surface = best_image(params, candidates(params, triangle));
+  surface.notes.push_back(
+      {"angle_excess", static_cast<double>(std::arg(holonomy(triangle)) * 2 * degrees_per_radian),
+       "degrees by which the interior angles exceed 180, up to 720; degree 2 exists where it is 0"});
+  return surface;
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ Surface build(Params& params) {
   const ReadCurve curve = read_curve(params);
   const double radius = params.number("tube", 0.02, Range::positive());
   Surface surface;
+  surface.notes = curve.notes;
   std::vector<CurveTube> tubes;
   std::vector<RationalCurve> pieces;
   for (const RationalCurve& piece : curve.pieces) {

@@ -9,6 +9,7 @@ namespace rondure {
 struct ReadCurve {
   std::vector<RationalCurve> pieces;  // each finite, in order, every one beginning where the last one ends
   std::vector<dvec4> polygon;         // control points of the whole; a weight may be zero
+  std::vector<Note> notes;            // what there is to tell of the construction
 };
 
 // From exactly one of "net", "preimage", "interpolate", "spline", "arc" and "circle"; all but the first on

@@ -46,13 +46,13 @@ class Reader {
   bool exact_ = true;
 
   void refuse_double(const std::vector<Gluing>& gluings, std::size_t i) const {
-    const auto refuse = [&](const EdgeRef& e) {
-      object_.fail("joins", fmt::format("(2) {} is glued more than once", name_of(e)));
+    const auto refuse = [&](const EdgeRef& e, const char* how) {
+      object_.fail("joins", fmt::format("(2) {} is glued {}", name_of(e), how));
     };
-    if (gluings[i].p == gluings[i].q) refuse(gluings[i].p);
+    if (gluings[i].p == gluings[i].q) refuse(gluings[i].p, "to itself");
     for (std::size_t j = 0; j < i; ++j) {
       for (const EdgeRef& e : {gluings[i].p, gluings[i].q}) {
-        if (e == gluings[j].p || e == gluings[j].q) refuse(e);
+        if (e == gluings[j].p || e == gluings[j].q) refuse(e, "more than once");
       }
     }
   }

@@ -2,10 +2,12 @@
 // 5).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "renderer/api/registry.h"
+#include "renderer/complex/local_basis.h"
 #include "surfaces/complex_reader.h"
 #include "surfaces/families.h"
 #include "surfaces/gc_points.h"
@@ -47,13 +49,26 @@ SplineSpace space_of(Params& params, const SurfaceComplex& complex, int degree) 
     params.fail(fmt::format("degree {} on {} polygons has {} coefficients, more than 2000", degree,
                             complex.sides.size(), unknowns));
   try {
-    SplineSpace space = spline_space(complex, degree);
-    // Of larger functions control points lose more than the last four digits.
-    if (largest_entry(space.solutions) <= 1e4) return space;
+    SplineSpace space = complex.exact ? local_spline_space(complex, degree) : spline_space(complex, degree);
+    // Of larger functions control points lose more than the last four digits; rounded functions lose theirs.
+    if (largest_entry(space.solutions) <= (complex.exact ? 1e4 : 100.0)) return space;
     return balanced_spline_space(complex, degree);
   } catch (const std::runtime_error& error) {
     params.fail(error.what());
   }
+}
+
+std::vector<Note> notes_of(const SplineSpace& space) {
+  std::size_t widest = 0;
+  for (std::size_t k = 0; k < space.dimension(); ++k) widest = std::max(widest, support_of(space, k).size());
+  std::vector<Note> notes = {{"dimension", static_cast<double>(space.dimension()),
+                              "of the space of geometrically continuous splines"},
+                             {"widest_support", static_cast<double>(widest),
+                              "polygons on which a function of its basis lives, at most"}};
+  if (!space.solutions.exact)
+    notes.push_back({"gap", space.solutions.gap,
+                     "by which what counts in the rank of the conditions is above what rounding leaves"});
+  return notes;
 }
 
 Surface build(Params& params) {
@@ -61,6 +76,12 @@ Surface build(Params& params) {
   const int degree = static_cast<int>(params.integer("degree", 3, 1, 8));
   const SplineSpace space = space_of(params, choice.complex, degree);
   const GcBasis basis = basis_of(choice.complex, space);
+  // The functions add up to 1, so that the points span one dimension less.
+  if (space.dimension() < 3)
+    params.fail(
+        "degree",
+        fmt::format("there {} of degree {} on this complex, which make no surface: take a higher degree",
+                    space.dimension() == 1 ? "is but 1 function" : "are but 2 functions", degree));
   std::vector<std::optional<BlendPoint>> defaults(basis.names.size());
   CoefficientTargets targets;
   if (params.has("vertices")) {
@@ -72,7 +93,10 @@ Surface build(Params& params) {
     const std::vector<BlendPoint> fitted = fitted_points(basis, targets);
     for (std::size_t k = 0; k < fitted.size(); ++k) defaults[k] = fitted[k];
   }
-  return blended_surface(params, choice.complex, basis, read_blend_points(params, basis.names, defaults));
+  Surface surface =
+      blended_surface(params, choice.complex, basis, read_blend_points(params, basis.names, defaults));
+  surface.notes = notes_of(space);
+  return surface;
 }
 
 }  // namespace
@@ -83,7 +107,7 @@ void register_gc_complex(Registry& registry) {
       "smooth surfaces over any complex of glued triangles and squares (Vidunas 2005, section 5)",
       {complex_doc(),
        {"degree", "integer 1 to 8", "3",
-        "of the splines, in each direction on squares; mixed complexes need 4 or more to be regular"},
+        "of the splines, in each direction on squares; mixed complexes need 4 or 5 to be regular"},
        {"vertices", "array of [x, y, z]", "none",
         "a place for every vertex, in the order of \"polygons\"' numbers or of the first corner at it: the "
         "surface is the one that comes nearest to the flat polygons. Without them the octahedron and the "

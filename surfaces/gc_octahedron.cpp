@@ -56,7 +56,11 @@ Surface build(Params& params) {
   const Defaults defaults = name == "splines"        ? cube_points(basis, degree)
                             : name == "hierarchical" ? hierarchy_points()
                                                      : rational_points();
-  return blended_surface(params, complex, basis, read_blend_points(params, basis.names, defaults));
+  Surface surface =
+      blended_surface(params, complex, basis, read_blend_points(params, basis.names, defaults));
+  surface.notes.push_back({"dimension", static_cast<double>(basis.functions.size()),
+                           "of the space of geometrically continuous functions"});
+  return surface;
 }
 
 }  // namespace

@@ -85,7 +85,12 @@ Surface blended_surface(Params& params, const SurfaceComplex& complex, const GcB
   for (const ExactPatch& patch : blend(basis, points.points, points.weighted)) nets.push_back(net_of(patch));
   for (std::size_t k = 0; k < nets.size(); ++k) {
     if (bounds_of(nets[k])) continue;
-    const std::string text = fmt::format("the weight of patch {} vanishes somewhere", k);
+    const std::vector<dvec4>& net = points_of(nets[k]);
+    const bool finite = std::all_of(net.begin(), net.end(), [](const dvec4& p) {
+      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
+    });
+    const std::string text = finite ? fmt::format("the weight of patch {} vanishes somewhere", k)
+                                    : fmt::format("the coordinates of patch {} are too large", k);
     if (params.has("control_points")) params.fail("control_points", text);
     params.fail(text);
   }

@@ -18,6 +18,13 @@ struct Guide {
   double end_balls = 1.0;    // radius of the balls at its ends, in radii of the wire
 };
 
+// What a construction has to tell of its result, beside the result: rondure info prints it.
+struct Note {
+  std::string name;  // one word, such as "condition"; no two of a surface are the same
+  double value;
+  std::string meaning;  // "of the interpolation: ..."
+};
+
 // One surface in its own frame. Families build about the origin at unit size; the scene applies radius,
 // centre and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
 struct Surface {
@@ -27,6 +34,7 @@ struct Surface {
   bool closed = false;             // bounds a solid: every line meets it an even number of times
   // What "show" may name beside the parts that every surface has, or in place of them.
   std::map<std::string, std::vector<Guide>> guides;
+  std::vector<Note> notes;
 };
 
 // One documented parameter, for `rondure describe`. `type` is prose such as "number in (-1, 1)".

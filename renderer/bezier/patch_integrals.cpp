@@ -177,7 +177,10 @@ std::vector<Piece> pieces_of(std::unique_ptr<IntegrationCell> whole, const Gauss
     for (const Piece& p : heap) sum += p.excess;
     return sum;
   };
-  std::size_t next_look = 256;
+  // A piece of high degree has many nodes, which see as much as several pieces of a lower one: 256 pieces of
+  // degree 4 are some 40,000.
+  const auto nodes = static_cast<std::size_t>(in_u.count * in_v.count);
+  std::size_t next_look = std::clamp<std::size_t>(256 * 13 * 13 / nodes, 16, 256);
   double last = std::numeric_limits<double>::infinity();
   while (static_cast<int>(heap.size()) < goal.most_cells && total() > 1.0) {
     if (heap.size() >= next_look) {

@@ -154,7 +154,9 @@ void add_export(CLI::App& program, CommandLine& line) {
       ->add_option(
           "--form", options->form,
           "Triangular patches as triangles (the default), as one degenerate tensor-product patch each, "
-          "or as three quadrilaterals: degenerate, quadrilaterals")
+          "or as three quadrilaterals: degenerate, quadrilaterals; or preimage: patches of spheres as nets "
+          "in "
+          "projective space")
       ->type_name("NAME");
 }
 

@@ -14,6 +14,7 @@
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
+#include "renderer/commands/export_preimage.h"
 #include "renderer/scene/scene_reader.h"
 #include "renderer/scene/unknown_name.h"
 
@@ -63,9 +64,11 @@ void write_ellipsoid(TextOutput& output, const dmat3& map, const dvec3& origin) 
   output.write("[0, 0, 0, 1]] }");
 }
 
-void write_object(TextOutput& output, const SceneObject& object, const std::string& form) {
+void write_object(TextOutput& output, const Scene& scene, const SceneObject& object,
+                  const std::string& form) {
   const Surface& surface = object.traced.surface;
   output.write(fmt::format("    {{ \"name\": {}, ", nlohmann::json(object.name).dump()));
+  if (form == "preimage") return output.write(preimage_members(scene, object));
   if (surface.ellipsoid) return write_ellipsoid(output, *surface.ellipsoid, surface.origin);
   output.write(fmt::format("\"type\": \"bezier\", \"closed\": {}, \"center\": {}, \"patches\": [",
                            surface.closed, text_of(surface.origin)));
@@ -82,7 +85,7 @@ void write_object(TextOutput& output, const SceneObject& object, const std::stri
 }  // namespace
 
 void run_export(const Registry& registry, const ExportCommand& options) {
-  const std::vector<std::string> forms = {"triangles", "degenerate", "quadrilaterals"};
+  const std::vector<std::string> forms = {"triangles", "degenerate", "quadrilaterals", "preimage"};
   if (std::find(forms.begin(), forms.end(), options.form) == forms.end())
     throw std::runtime_error("--form: " + unknown_name("form", options.form, forms));
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
@@ -92,7 +95,7 @@ void run_export(const Registry& registry, const ExportCommand& options) {
   const char* separator = "\n";
   for (const SceneObject& object : scene.objects) {
     output.write(separator);
-    write_object(output, object, options.form);
+    write_object(output, scene, object, options.form);
     separator = ",\n";
   }
   output.write("\n  ]\n}\n");

@@ -86,6 +86,8 @@ Json describe_object(const SceneObject& object, const InfoCommand& options) {
   if (!box.empty())
     out["bounds"] = {{"low", vector_of(box.low + surface.origin)},
                      {"high", vector_of(box.high + surface.origin)}};
+  for (const Note& note : surface.notes)
+    out["notes"][note.name] = {{"value", note.value}, {"meaning", note.meaning}};
   if (!options.no_mass) add_mass(out, surface);
   if (!options.no_continuity) add_continuity(out, surface);
   return out;
@@ -148,6 +150,11 @@ std::string as_text(const Json& info) {
       out += fmt::format("    within ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
                          a[0].get<double>(), a[1].get<double>(), a[2].get<double>(), b[0].get<double>(),
                          b[1].get<double>(), b[2].get<double>());
+    }
+    if (object.contains("notes")) {
+      for (const auto& [name, note] : object["notes"].items())
+        out += fmt::format("    {} {:.6g}: {}\n", name, note["value"].get<double>(),
+                           note["meaning"].get<std::string>());
     }
     if (object.contains("area")) out += mass_text(object);
     out += continuity_text(object);

@@ -28,6 +28,7 @@ Json continuity_json(const Continuity& c) {
               {"open_sides", c.open_sides},
               {"collapsed_sides", c.collapsed_sides},
               {"orientable", c.orientable},
+              {"places_on_a_seam", c.places},
               {"gap", worst_of(c.gap)},
               {"tangent_degrees", worst_of(c.tangent)},
               {"mean_curvature_jump", worst_of(c.mean)},
@@ -66,19 +67,22 @@ std::string seams_text(const Json& c) {
   if (c["collapsed_sides"].get<std::size_t>() > 0)
     out += fmt::format(", {} sides collapsed to a point", c["collapsed_sides"].get<std::size_t>());
   if (!c["orientable"].get<bool>()) out += ", not orientable";
+  if (c["seams"].get<std::size_t>() > 0)
+    out += fmt::format("; the worst of {} places on each seam:", c["places_on_a_seam"].get<int>());
   out += "\n";
   const auto line = [&](const char* key, const char* what, const char* unit) {
     if (c[key].is_null()) return;
-    out += fmt::format("      {} by at most {:.2g}{}: {}\n", what, c[key]["worst"].get<double>(), unit,
-                       where(c[key]));
+    out +=
+        fmt::format("      {} by {:.2g}{}: {}\n", what, c[key]["worst"].get<double>(), unit, where(c[key]));
   };
   line("tangent_degrees", "tangent planes differ", " degrees");
   line("mean_curvature_jump", "mean curvature jumps", "");
   line("gaussian_curvature_jump", "Gaussian curvature jumps", "");
   if (!c["vertex_degrees"].is_null()) {
     out += fmt::format(
-        "      at {} closed vertices normals differ by at most {:.2g} degrees, angles are off a "
-        "full turn by {}\n",
+        "      at {} closed vertices normals differ by up to {:.2g} degrees, angles are off a full turn by "
+        "up to "
+        "{}\n",
         c["closed_vertices"].get<std::size_t>(), c["vertex_degrees"]["worst"].get<double>(),
         c["vertex_angle_sum_off"].is_null()
             ? "what is not known"
@@ -93,7 +97,7 @@ std::string regularity_text(const Json& r) {
   if (verdict == "regular" && !r["least_certified"].is_null()) {
     out = fmt::format(
         "    regular: |Su x Sv| is at least {:.3g}, proved on {} pieces; least found {:.3g} in "
-        "patch {}, largest {:.3g}\n",
+        "patch {}, largest found {:.3g}\n",
         r["least_certified"].get<double>(), r["pieces"].get<long>(), r["least_found"].get<double>(),
         r["least_at"]["patch"].get<int>(), r["largest_found"].get<double>());
   } else if (verdict == "regular") {
@@ -112,7 +116,7 @@ std::string regularity_text(const Json& r) {
     }
   } else {
     out = fmt::format(
-        "    regular or not is undecided: |Su x Sv| falls to {:.3g} in patch {}, largest {:.3g}\n",
+        "    regular or not is undecided: |Su x Sv| falls to {:.3g} in patch {}, largest found {:.3g}\n",
         r["least_found"].get<double>(), r["least_at"]["patch"].get<int>(), r["largest_found"].get<double>());
   }
   return out;

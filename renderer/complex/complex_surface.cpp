@@ -83,14 +83,14 @@ Net net_of(const ExactPatch& patch) {
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets) {
   const Topology topology = topology_of(complex);
   Surface surface;
-  double volume = 0.0;
+  std::vector<double> volume(index(topology.parts), 0.0);
   for (std::size_t k = 0; k < nets.size(); ++k) {
     surface.patches.push_back(topology.turned[k] ? reversed(nets[k]) : std::move(nets[k]));
-    volume += cone_volume(surface.patches.back());
+    volume[index(topology.part[k])] += cone_volume(surface.patches.back());
   }
   surface.closed = topology.boundary_edges == 0 && topology.orientable;
-  if (surface.closed && volume < 0.0) {
-    for (Net& net : surface.patches) net = reversed(net);
+  for (std::size_t k = 0; surface.closed && k < surface.patches.size(); ++k) {
+    if (volume[index(topology.part[k])] < 0.0) surface.patches[k] = reversed(surface.patches[k]);
   }
   return surface;
 }

@@ -24,7 +24,7 @@ std::vector<ExactPatch> blend(const GcBasis& basis, const std::vector<BlendPoint
 Net net_of(const ExactPatch& patch);
 
 // The patches turned so that their normals agree, and point outward where the complex is closed and
-// orientable: towards the side for which the volume inside is positive.
+// orientable: towards the side for which the volume inside is positive, part by part.
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets);
 
 }  // namespace rondure

@@ -60,7 +60,8 @@ Row eliminated(const Row& row, const Row& pivot) {
 }  // namespace
 
 NullSpace exact_null_space(const std::vector<SparseRow>& rows, const std::vector<int>& order) {
-  std::vector<int> place(order.size());
+  const int last = order.empty() ? -1 : *std::max_element(order.begin(), order.end());
+  std::vector<int> place(index(last + 1));
   for (std::size_t k = 0; k < order.size(); ++k) place[index(order[k])] = static_cast<int>(k);
   std::vector<std::vector<Row>> by_lead(order.size());
   for (const SparseRow& row : rows) {

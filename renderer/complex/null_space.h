@@ -18,9 +18,9 @@ struct NullSpace {
   double gap = std::numeric_limits<double>::infinity();
 };
 
-// `order` lists all unknowns, those first that are to be expressed by the others: the free unknowns are as
-// far back as they can be. By elimination without fractions (Bareiss 1968), rows kept sparse and their common
-// factors divided out.
+// `order` lists all unknowns that the rows have, those first that are to be expressed by the others: the free
+// unknowns are as far back as they can be. By elimination without fractions (Bareiss 1968), rows kept sparse
+// and their common factors divided out.
 NullSpace exact_null_space(const std::vector<SparseRow>& rows, const std::vector<int>& order);
 
 // The same from coefficients rounded to double: the rank is where the singular values fall most steeply below

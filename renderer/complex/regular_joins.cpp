@@ -9,8 +9,11 @@ constexpr double two_pi = 6.28318530717958647693;
 
 std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
-// 2 cos(2 pi / N).
+// 2 cos(2 pi / N). On the boundary nothing has to close: corners of 90 degrees, or where that would be too
+// many of them, of a little less than a half-turn's share each, 2 cos(pi / n) < 2 - 9 / n^2.
 Exact spoke_sum(const VertexFan& fan, bool& exact) {
+  const int corners = static_cast<int>(fan.corners.size());
+  if (!fan.closed && corners > 3) return 2 - Exact(9) / (corners * corners);
   const std::size_t n = fan.closed ? fan.corners.size() : 4;
   if (n == 1) return 2;
   if (n == 2) return -2;

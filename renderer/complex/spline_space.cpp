@@ -15,6 +15,8 @@ int steps_from_corner(int sides, int n, int coefficient) {
   return std::min(e[0], n - e[0]) + std::min(e[1], n - e[1]);
 }
 
+}  // namespace
+
 std::vector<int> elimination_order(const SurfaceComplex& complex, int n) {
   std::vector<std::tuple<int, int, int>> keys;
   int number = 0;
@@ -28,8 +30,6 @@ std::vector<int> elimination_order(const SurfaceComplex& complex, int n) {
   for (const auto& key : keys) order.push_back(std::get<2>(key));
   return order;
 }
-
-}  // namespace
 
 SplineSpace spline_space(const SurfaceComplex& complex, int n, std::vector<PolygonPolynomial> denominators) {
   SplineSpace space{n, coefficient_offsets(complex, n), std::move(denominators), {}};

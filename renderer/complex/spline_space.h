@@ -14,6 +14,10 @@ struct SplineSpace {
   std::size_t dimension() const { return solutions.basis.size(); }
 };
 
+// All unknowns, those first that should be expressed by the others: nearer to the boundary, then nearer to a
+// corner.
+std::vector<int> elimination_order(const SurfaceComplex& complex, int n);
+
 // Polynomials of degree n on every polygon, or over the given denominators, that are continuous and
 // geometrically continuous. Coefficients farther from the boundary are preferred as free ones, so that basis
 // functions are dual to them and local where the complex allows it. Exact for an exact complex; otherwise see

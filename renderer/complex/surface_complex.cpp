@@ -143,11 +143,12 @@ Topology topology_of(const SurfaceComplex& complex) {
   t.edges = t.boundary_edges + static_cast<int>(complex.joins.size());
   t.orientable = true;
   t.turned.assign(index(t.polygons), false);
+  t.part.assign(index(t.polygons), 0);
   std::vector<bool> reached(index(t.polygons), false);
   for (int first = 0; first < t.polygons; ++first) {
     if (reached[index(first)]) continue;
-    ++t.parts;
     reached[index(first)] = true;
+    t.part[index(first)] = t.parts;
     bool grew = true;
     while (grew) {
       grew = false;
@@ -163,8 +164,10 @@ Topology topology_of(const SurfaceComplex& complex) {
         const std::size_t from = reached[p] ? p : q, to = reached[p] ? q : p;
         reached[to] = grew = true;
         t.turned[to] = t.turned[from] != differ;
+        t.part[to] = t.parts;
       }
     }
+    ++t.parts;
   }
   return t;
 }

@@ -91,8 +91,9 @@ struct Topology {
   int parts = 0;           // connected
   int boundary_edges = 0;  // 0 when the complex is closed
   bool orientable = false;
-  std::vector<bool>
-      turned;  // of each polygon: to be turned round for all to agree with the first of its part
+  std::vector<int> part;  // of each polygon: which part it belongs to
+  // Of each polygon: to be turned round for all to agree with the first of its part.
+  std::vector<bool> turned;
   int euler() const { return vertices - edges + polygons; }
 };
 Topology topology_of(const SurfaceComplex& complex);

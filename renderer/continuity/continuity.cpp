@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/continuity/side_foot.h"
 
 namespace rondure {
 namespace {
@@ -32,6 +33,7 @@ class Meter {
     out_.orientable = seams_.orientable;
     const int budget = 100000 / static_cast<int>(std::max<std::size_t>(seams_.seams.size(), 1));
     steps_ = std::clamp(budget, 4, 32);
+    out_.places = steps_ + 1;
     for (const Seam& seam : seams_.seams) along(seam);
     for (const SeamVertex& v : seams_.vertices) {
       if (!v.closed) continue;
@@ -50,36 +52,14 @@ class Meter {
   const Net& net(int patch) const { return patches_[static_cast<std::size_t>(patch)]; }
   double sign(int patch) const { return seams_.turned[static_cast<std::size_t>(patch)] ? -1.0 : 1.0; }
 
-  dvec3 place(const PatchSide& s, double t) const {
-    const dvec2 uv = side_point(net(s.patch), s.side, t);
-    return net_point(net(s.patch), uv.x, uv.y);
-  }
-
-  // Where the other side is nearest to p, from a guess by the parameters.
-  double opposite(const Seam& seam, const dvec3& p, double guess) const {
-    const PatchSide& b = seam.b;
-    const dvec2 d = side_point(net(b.patch), b.side, 1.0) - side_point(net(b.patch), b.side, 0.0);
-    double t = guess;
-    double best = glm::distance(place(b, t), p);
-    for (int step = 0; step < 12 && best > 0.0; ++step) {
-      const dvec2 uv = side_point(net(b.patch), b.side, t);
-      const SurfaceJet jet = surface_jet(net(b.patch), uv.x, uv.y);
-      const dvec3 slope = d.x * jet.du + d.y * jet.dv;
-      const double next = std::clamp(t + glm::dot(p - jet.point, slope) / glm::dot(slope, slope), 0.0, 1.0);
-      const double found = glm::distance(place(b, next), p);
-      // Rounding moves the guess of sides with one parameter too: that is no improvement.
-      if (!(found < 0.5 * best)) break;
-      best = found, t = next;
-    }
-    return t;
-  }
+  dvec3 place(const PatchSide& s, double t) const { return point_on_side(net(s.patch), s.side, t); }
 
   void along(const Seam& seam) {
     for (int k = 0; k <= steps_; ++k) {
       const double s = static_cast<double>(k) / steps_;
       const dvec3 p = place(seam.a, s);
-      const double t = opposite(seam, p, seam.reversed ? 1.0 - s : s);
       const int a = seam.a.patch, b = seam.b.patch;
+      const double t = foot_on_side(net(b), seam.b.side, p, seam.reversed ? 1.0 - s : s).t;
       const auto at = [&](WorstAt& worst, double value) { raise(worst, value, a, b, p); };
       at(out_.gap, glm::distance(p, place(seam.b, t)));
       const dvec2 ua = side_point(net(a), seam.a.side, s), ub = side_point(net(b), seam.b.side, t);
@@ -114,10 +94,11 @@ class Meter {
     }
     const int first = vertex.corners.front().patch;
     raise(out_.vertex_sum, std::abs(sum - 360.0), first, first, point);
-    if (!seams_.orientable) return;
     for (std::size_t i = 0; i < normals.size(); ++i) {
       for (std::size_t j = i + 1; j < normals.size(); ++j) {
-        raise(out_.vertex, angle_between(normals[i].second, normals[j].second), normals[i].first,
+        const double angle = angle_between(normals[i].second, normals[j].second);
+        // Where there are no two sides, normals are lines.
+        raise(out_.vertex, seams_.orientable ? angle : std::min(angle, 180.0 - angle), normals[i].first,
               normals[j].first, point);
       }
     }

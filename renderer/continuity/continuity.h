@@ -17,11 +17,14 @@ struct Continuity {
   std::size_t seams = 0, open_sides = 0, collapsed_sides = 0;
   std::size_t vertices = 0, closed_vertices = 0;  // points of space where corners lie; closed: no open side
   bool orientable = true;
-  WorstAt gap;         // distance between two sides of a seam
-  WorstAt tangent;     // angle between the normals along seams, degrees; 180 at a fold
-  WorstAt mean;        // jump of the mean curvature along seams, per unit of length
-  WorstAt gaussian;    // jump of the Gaussian curvature
-  WorstAt vertex;      // angle between any two normals at one closed vertex, degrees
+  int places = 0;    // that are looked at along each seam
+  WorstAt gap;       // distance between two sides of a seam
+  WorstAt tangent;   // angle between the normals along seams, degrees; 180 at a fold
+  WorstAt mean;      // jump of the mean curvature along seams, per unit of length
+  WorstAt gaussian;  // jump of the Gaussian curvature
+  // Angle between any two normals at one closed vertex, degrees; between their lines, up to 90, where the
+  // surface is not orientable.
+  WorstAt vertex;
   WorstAt vertex_sum;  // how far the angles of the corners at a closed vertex are from 360 degrees
 };
 

@@ -63,17 +63,7 @@ std::pair<TrianglePolynomial<T>, TrianglePolynomial<T>> cut(const TrianglePolyno
   return parts;
 }
 
-// The values at the corners.
-std::vector<std::size_t> corner_places(const TensorPolynomial<dvec3>& p) {
-  const auto m = static_cast<std::size_t>(p.m), n = static_cast<std::size_t>(p.n);
-  return {0, m * (n + 1), m * (n + 1) + n, n};
-}
-std::vector<std::size_t> corner_places(const TrianglePolynomial<dvec3>& p) {
-  return {static_cast<std::size_t>(triangle_index(p.n, p.n, 0)),
-          static_cast<std::size_t>(triangle_index(p.n, 0, p.n)), 0};
-}
-
-// A piece of a patch: its normal, its weight, and its corners in the order of corner_places.
+// A piece of a patch: its normal, its weight, and its corners: 00, 10, 11, 01, or where u, v, w = 1.
 template <class Normal, class Weight>
 struct Piece {
   Normal normal;
@@ -172,8 +162,31 @@ class Search {
 
   const Net& net() const { return surface_.patches[static_cast<std::size_t>(patch_)]; }
 
+  // A value of |Su x Sv| that is taken.
+  void note(const dvec2& at) {
+    const SurfaceJet jet = surface_jet(net(), at.x, at.y);
+    const double value = glm::length(glm::cross(jet.du, jet.dv));
+    out_.largest_found = std::max(out_.largest_found, value);
+    if (value < out_.least_found) {
+      out_.least_found = value;
+      out_.least_at = {patch_, at.x, at.y, jet.point + surface_.origin};
+    }
+  }
+
+  // A grid of them, so that what is found does not depend on how few pieces a proof needs.
+  void note_grid() {
+    const double share = 1e5 / static_cast<double>(surface_.patches.size());
+    const int cells = std::clamp(static_cast<int>(std::sqrt(share)), 2, 16);
+    const bool triangle = std::holds_alternative<TriangleNet>(net());
+    for (int i = 0; i <= cells; ++i) {
+      for (int j = 0; j <= (triangle ? cells - i : cells); ++j)
+        note({static_cast<double>(i) / cells, static_cast<double>(j) / cells});
+    }
+  }
+
   template <class N, class W>
   void search(N normal, W weight, std::vector<dvec2> corners) {
+    note_grid();
     std::vector<Piece<N, W>> left;
     left.push_back({std::move(normal), std::move(weight), std::move(corners), 0});
     std::vector<dvec2> suspects;
@@ -203,24 +216,28 @@ class Search {
   // Of |N| / w^3 on the piece. Its corners give values that are taken.
   template <class N, class W>
   double lower_bound(const Piece<N, W>& piece) {
-    const std::vector<std::size_t> places = corner_places(piece.normal);
     double largest_weight = 0.0;
     for (const double w : piece.weight.coefficients) largest_weight = std::max(largest_weight, std::abs(w));
     dvec3 sum(0.0);
     for (const dvec3& n : piece.normal.coefficients) sum += n;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const SurfaceJet jet = surface_jet(net(), piece.corners[k].x, piece.corners[k].y);
-      const double value = glm::length(glm::cross(jet.du, jet.dv));
-      out_.largest_found = std::max(out_.largest_found, value);
-      if (value < out_.least_found) {
-        out_.least_found = value;
-        out_.least_at = {patch_, piece.corners[k].x, piece.corners[k].y, jet.point + surface_.origin};
+    for (const dvec2& corner : piece.corners) note(corner);
+    // The mean is a direction to try; while some coefficient lies on its other side, a share of that one is
+    // added (Rosenblatt's perceptron), which finds a plane with all of them on one side where there is one.
+    double low = 0.0;
+    for (int round = 0; round < 12; ++round) {
+      const double length = glm::length(sum);
+      if (!(length > 0.0)) return 0.0;
+      const dvec3 direction = sum / length;
+      low = std::numeric_limits<double>::infinity();
+      const dvec3* worst = nullptr;
+      for (const dvec3& n : piece.normal.coefficients) {
+        const double height = glm::dot(n, direction);
+        if (height < low) low = height, worst = &n;
       }
+      const double size = worst ? glm::length(*worst) : 0.0;
+      if (!(size > 0.0) || low > noise_ * (1.0 + piece.depth)) break;
+      sum = direction + *worst / size;
     }
-    const double length = glm::length(sum);
-    if (!(length > 0.0)) return 0.0;
-    double low = std::numeric_limits<double>::infinity();
-    for (const dvec3& n : piece.normal.coefficients) low = std::min(low, glm::dot(n, sum) / length);
     // Halving adds half an eps of the coefficients at every level and degree.
     low -= noise_ * (1.0 + piece.depth);
     return low > 0.0 ? low / (largest_weight * largest_weight * largest_weight) : 0.0;
@@ -237,24 +254,31 @@ class Search {
         n);
     const bool triangle = std::holds_alternative<TriangleNet>(net());
     const auto value = [&](const dvec2& p) { return polynomial_value(n, p.x, p.y); };
-    const double zero = 1e-12 * size;
+    // What rounding leaves of a zero: some tens of eps, and those of where it lies.
+    const double zero = 1e-13 * size;
     for (int step = 0; step < 20 && !(glm::length(value(at)) <= zero); ++step) {
       const double h = 1e-6;
       const dvec3 f = value(at);
       const dvec3 fu = (value(at + dvec2(h, 0)) - value(at - dvec2(h, 0))) / (2.0 * h);
       const dvec3 fv = (value(at + dvec2(0, h)) - value(at - dvec2(0, h))) / (2.0 * h);
       const double a = glm::dot(fu, fu), b = glm::dot(fu, fv), c = glm::dot(fv, fv);
-      const double d = a * c - b * b;
-      if (!(d > 1e-24 * (a + c) * (a + c))) break;
       const dvec2 right(glm::dot(fu, f), glm::dot(fv, f));
-      const dvec2 move((c * right.x - b * right.y) / d, (a * right.y - b * right.x) / d);
+      // Along a singular curve N changes across it only: then the shortest of the steps that would do.
+      const double d = a * c - b * b, both = a + c;
+      if (!(both > 0.0)) break;
+      const dvec2 move = d > 1e-9 * both * both
+                             ? dvec2((c * right.x - b * right.y) / d, (a * right.y - b * right.x) / d)
+                             : right / both;
       at -= move;
       if (glm::length(move) < 1e-15) break;
     }
     const double slack = 1e-9;
     const bool inside = at.x >= -slack && at.y >= -slack &&
                         (triangle ? at.x + at.y <= 1.0 + slack : at.x <= 1.0 + slack && at.y <= 1.0 + slack);
-    if (!inside || !(glm::length(value(at)) <= zero)) return;
+    if (!inside) return;
+    at = glm::clamp(at, 0.0, 1.0);
+    if (triangle && at.x + at.y > 1.0) at /= at.x + at.y;
+    if (!(glm::length(value(at)) <= zero)) return;
     for (const SingularPoint& s : out_.singular) {
       if (s.patch == patch_ && glm::distance(dvec2(s.u, s.v), at) < 1e-5) return;
     }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "renderer/bezier/box.h"
-#include "renderer/bezier/rational.h"
+#include "renderer/continuity/side_foot.h"
 
 namespace rondure {
 namespace {
@@ -30,40 +30,15 @@ struct Curve {
   dvec3 points[steps + 1];
   int from = 0, to = 0;  // vertices
   bool used = false;
-
-  dvec3 at(double t) const {
-    const dvec2 uv = side_point(*net, where.side, t);
-    return net_point(*net, uv.x, uv.y);
-  }
-  dvec3 slope(double t) const {
-    const SurfaceJet jet =
-        surface_jet(*net, side_point(*net, where.side, t).x, side_point(*net, where.side, t).y);
-    const dvec2 d = side_point(*net, where.side, 1.0) - side_point(*net, where.side, 0.0);
-    return d.x * jet.du + d.y * jet.dv;
-  }
 };
-
-// The distance of a point from a curve, by Newton's method from a guess.
-double distance_from(const dvec3& p, const Curve& curve, double t) {
-  double best = glm::distance(curve.at(t), p);
-  for (int step = 0; step < 12 && best > 0.0; ++step) {
-    const dvec3 slope = curve.slope(t);
-    const double square = glm::dot(slope, slope);
-    if (!(square > 0.0)) break;
-    const double next = std::clamp(t + glm::dot(p - curve.at(t), slope) / square, 0.0, 1.0);
-    const double found = glm::distance(curve.at(next), p);
-    if (!(found < best)) break;
-    best = found, t = next;
-  }
-  return best;
-}
 
 bool same_curve(const Curve& a, const Curve& b, bool reversed, double tolerance) {
   for (int k = 0; k <= Curve::steps; ++k) {
     const int other = reversed ? Curve::steps - k : k;
     if (glm::distance(a.points[k], b.points[other]) <= tolerance) continue;
     const double guess = static_cast<double>(other) / Curve::steps;
-    if (k == 0 || k == Curve::steps || !(distance_from(a.points[k], b, guess) <= tolerance)) return false;
+    if (k == 0 || k == Curve::steps) return false;
+    if (!(foot_on_side(*b.net, b.where.side, a.points[k], guess).distance <= tolerance)) return false;
   }
   return true;
 }
@@ -98,7 +73,7 @@ std::vector<Curve> curves_of(const std::vector<Net>& patches, double& size) {
       c.where = {static_cast<int>(k), side};
       c.net = &patches[k];
       for (int step = 0; step <= Curve::steps; ++step) {
-        c.points[step] = c.at(static_cast<double>(step) / Curve::steps);
+        c.points[step] = point_on_side(patches[k], side, static_cast<double>(step) / Curve::steps);
         box.add(c.points[step]);
       }
       curves.push_back(c);

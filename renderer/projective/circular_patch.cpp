@@ -1,5 +1,7 @@
 #include "renderer/projective/circular_patch.h"
 
+#include <numbers>
+
 namespace rondure {
 namespace {
 
@@ -27,13 +29,16 @@ Complex around(const Sides<N>& sides) {
   return product / std::abs(product);
 }
 
-// exp of i times the argument over n: the n-th root with the smallest argument.
-Complex root(const Complex& h, long double n) { return std::polar(1.0L, std::arg(h) / n); }
+// exp of i times the argument over n: the n-th root with the smallest argument, or the next one.
+Complex root_of(const Complex& h, long double n, Root which = Root::least) {
+  const long double argument = std::arg(h), turn = 2 * std::numbers::pi_v<long double>;
+  return std::polar(1.0L, (which == Root::least ? argument : argument - std::copysign(turn, argument)) / n);
+}
 
 // The corners on one line of phases, with the defect of the holonomy spread over the sides.
 template <std::size_t N>
 std::array<Spinor, N> joined(const Sides<N>& sides) {
-  const Complex less = std::conj(root(around(sides), N));
+  const Complex less = std::conj(root_of(around(sides), N));
   std::array<Spinor, N> points;
   Complex phase = 1;
   for (std::size_t k = 0; k < N; ++k) {
@@ -59,12 +64,12 @@ TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape) {
   return p;
 }
 
-TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad) {
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root) {
   const auto [corner, g] = sides_of(quad.arc);
   const Complex h = g[0] * g[1] * g[2] * g[3];
   // The straight sides u = 0 and u = 1 from v = 0; times a linear factor they end in phases that the side
   // v = 1 joins. The defect is divided evenly, which keeps the factors farthest from zero.
-  const Complex c = root(h, 2), d = c / h;
+  const Complex c = root_of(h, 2, root), d = c / h;
   const Spinor low[2] = {corner[0], g[0] * corner[1]};
   const Spinor high[2] = {(1.0L / g[3]) * corner[3], g[0] * g[1] * corner[2]};
   const Complex factor[2] = {c, d};
@@ -77,10 +82,10 @@ TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad) {
   return p;
 }
 
-TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad) {
+TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root) {
   // The same with corner 1 first: its (u, v) are our (v, 1 - u).
   const auto& arc = quad.arc;
-  const TensorPreimage from = linear_quadratic_preimage({{arc[1], arc[2], arc[3], arc[0]}});
+  const TensorPreimage from = linear_quadratic_preimage({{arc[1], arc[2], arc[3], arc[0]}}, root);
   TensorPreimage p(2, 1);
   for (int i = 0; i <= 2; ++i) {
     for (int j = 0; j <= 1; ++j) p.at(i, j) = from.at(j, 2 - i);
@@ -97,10 +102,10 @@ TrianglePreimage linear_preimage(const SphericalTriangle& triangle) {
   return p;
 }
 
-TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle) {
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root) {
   const auto [corner, g] = sides_of(triangle.arc);
   // Each straight side times a linear factor from 1 to h, so that three of them close.
-  const Complex h = std::conj(root(g[0] * g[1] * g[2], 3));
+  const Complex h = std::conj(root_of(g[0] * g[1] * g[2], 3, root));
   TrianglePreimage p(2);
   const int at[3][2] = {{2, 0}, {0, 2}, {0, 0}}, between[3][2] = {{1, 1}, {0, 1}, {1, 0}};
   Complex phase = 1;

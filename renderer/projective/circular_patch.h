@@ -34,14 +34,20 @@ TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape);
 // again at a corner, so that a plane or a point is not determined.
 std::optional<TensorPreimage> bilinear_preimage_by_planes(const SphericalQuad& quad);
 
+// The holonomy is divided among the sides by one of its roots, that of least argument. Near -1 rounding would
+// decide which one this is, and it makes another patch, which lies on the other side of the arcs: where they
+// run round one circle, or join smoothly, either may be the one that is wanted. `other` is that of the
+// argument less a turn, or more.
+enum class Root { least, other };
+
 // Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are quadratic.
-TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad);
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root = Root::least);
 
 // The same of degree (2, 1), with quadratic sides at u = 0 and u = 1.
-TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad);
+TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root = Root::least);
 
 // Of degree 1, for a holonomy of 1 or nearly, and of degree 2 for any arcs.
 TrianglePreimage linear_preimage(const SphericalTriangle& triangle);
-TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle);
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root = Root::least);
 
 }  // namespace rondure

@@ -68,4 +68,55 @@ TEST_CASE("triangles leave as tensor-product patches where they are asked to", "
   CHECK(read_text_file(folder + "/scene.json") == scene);
 }
 
+TEST_CASE("spheres leave as preimages under the generalised projection, and come back", "[command][export]") {
+  const std::string folder = folder_with("export_preimage", R"({ "objects": [
+    { "type": "sphere_tiling", "topology": "cube_2_4", "center": [4, -0.3, 7], "radius": 0.37, "name": "six" },
+    { "type": "circular_triangle", "corners": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+      "transform": [ { "rotate": { "axis": [1, 2, 3], "angle": 30 } } ] } ] })");
+  REQUIRE(exported(folder, {"--form", "preimage", "-o", "out.json"}).exit_code == 0);
+  const Scene given = read(read_text_file(folder + "/scene.json")),
+              back = read(read_text_file(folder + "/out.json"));
+  REQUIRE(back.objects.size() == 2);
+  double off = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Surface &a = given.objects[k].traced.surface, &b = back.objects[k].traced.surface;
+    CHECK(back.objects[k].type == "projected_net");
+    CHECK(back.objects[k].name == given.objects[k].name);
+    CHECK(a.origin == b.origin);
+    CHECK(a.closed == b.closed);
+    REQUIRE(a.patches.size() == b.patches.size());
+    for (std::size_t j = 0; j < a.patches.size(); ++j) {
+      REQUIRE(points_of(a.patches[j]).size() == points_of(b.patches[j]).size());
+      for (std::size_t c = 0; c < points_of(a.patches[j]).size(); ++c) {
+        const dvec4 d = points_of(a.patches[j])[c] - points_of(b.patches[j])[c];
+        off = std::fmax(off, std::sqrt(glm::dot(d, d)));
+      }
+    }
+  }
+  // A preimage is found to ten digits.
+  CHECK(off < 1e-9);
+}
+
+TEST_CASE("what has no preimage is refused, base points are named", "[command][export]") {
+  const auto refused = [](const char* name, const std::string& objects, const std::string& part) {
+    const std::string folder = folder_with(name, "{ \"objects\": [" + objects + "] }");
+    const ProcessResult result = exported(folder, {"--form", "preimage"});
+    INFO(objects << "\n" << result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(result.err.find(part) != std::string::npos);
+  };
+  refused("preimage_iss", R"({ "type": "iss", "octants": { "degree": 3, "interior": 1 } })",
+          "does not lie on a sphere");
+  refused("preimage_analytic", R"({ "type": "sphere" })", "is analytic");
+  // The equator's neighbourhood raised to an odd degree.
+  refused("preimage_odd", R"({ "type": "bezier", "patches": [ { "kind": "tensor", "degree": [1, 1],
+          "net": [ [[1,0,0,1], [1,0,0,1]], [[1,0,0,1], [1,0,0,1]] ] } ] })",
+          "odd degree");
+  // The image of a = v (1 + i u), b = u, which vanish together at (0, 0).
+  refused("preimage_base", R"({ "type": "bezier", "patches": [ { "kind": "tensor", "degree": [2, 2], "net":
+          [ [[0,0,0,0], [0,0,0,0], [0,0,1,1]], [[0,0,0,0], [0.5,0,0,0], [1,0,1,1]],
+            [[0,0,-1,1], [1,1,-1,1], [2,2,1,3]] ] } ] })",
+          "has base points, where the patch is no point: (u, v) = (");
+}
+
 }  // namespace rondure

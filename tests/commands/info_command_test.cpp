@@ -86,14 +86,27 @@ TEST_CASE("info tells how patches meet and where they are singular", "[command][
   CHECK(objects[1]["regularity"]["least_certified"].get<double>() > 0.0);
   CHECK_FALSE(objects[2].contains("regularity"));
   const std::string text = info(folder, {"--no-mass"}).out;
-  CHECK(text.find("    12 seams, 0 open sides\n      tangent planes differ by at most ") !=
-        std::string::npos);
+  CHECK(text.find("    12 seams, 0 open sides; the worst of 33 places on each seam:\n      tangent planes "
+                  "differ by ") != std::string::npos);
   CHECK(text.find("    singular: Su x Sv vanishes at 2 points\n      patch 2 at (u, v) = (0.447842876926, "
                   "0.142384548227), (") != std::string::npos);
   CHECK(text.find("    regular: |Su x Sv| is at least ") != std::string::npos);
   const std::string less = info(folder, {"--no-mass", "--no-continuity"}).out;
   CHECK(less.find("seams") == std::string::npos);
   CHECK(less.find("regular") == std::string::npos);
+}
+
+TEST_CASE("info tells what a construction has to tell", "[command]") {
+  const std::string folder = folder_with("info_notes", R"({ "objects": [
+    { "type": "curve", "interpolate": [[0,0,-1], [1,2,-2], [6,2,3], [1,4,8], [-2,1,2]] },
+    { "type": "gc_complex", "complex": "cube" }, { "type": "sphere" } ] })");
+  const ProcessResult text = info(folder, {"--no-mass", "--no-continuity"});
+  CHECK(text.out.find("    condition 0.") != std::string::npos);
+  CHECK(text.out.find("    dimension 24: of the space") != std::string::npos);
+  const json objects = json::parse(info(folder, {"--no-mass", "--no-continuity", "--json"}).out)["objects"];
+  CHECK(objects[0]["notes"]["condition"]["value"].get<double>() > 1e-4);
+  CHECK(objects[1]["notes"]["dimension"]["value"].get<double>() == 24);
+  CHECK_FALSE(objects[2].contains("notes"));
 }
 
 }  // namespace rondure

@@ -149,4 +149,52 @@ TEST_CASE("gc_complex says what is wrong", "[complex]") {
       "expected a number or a fraction \"p/q\" of integers with 15 digits at most");
 }
 
+TEST_CASE("every part of a complex faces outward", "[complex]") {
+  // Two cubes, the faces of the second listed the other way round.
+  const std::string two =
+      R"("complex": {"polygons": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5],
+      [9,11,10,8],[14,15,13,12],[12,13,9,8],[11,15,14,10],[10,14,12,8],[13,15,11,9]]}, "vertices": [
+      [-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1],
+      [4,-1,-1],[6,-1,-1],[4,1,-1],[6,1,-1],[4,-1,1],[6,-1,1],[4,1,1],[6,1,1]])";
+  const Surface surface = complex_surface(two);
+  CHECK(surface.closed);
+  int inward = 0;
+  for (std::size_t k = 0; k < surface.patches.size(); ++k) {
+    const SurfaceJet jet = surface_jet(surface.patches[k], 0.5, 0.5);
+    const dvec3 centre(k < 6 ? 0 : 5, 0, 0);
+    inward += glm::dot(jet.point - centre, glm::cross(jet.du, jet.dv)) < 0.0;
+  }
+  CHECK(inward == 0);
+}
+
+TEST_CASE("boundary vertices may have any number of polygons", "[complex]") {
+  for (int n = 4; n <= 9; ++n) {
+    std::string polygons, vertices = "[0, 0, 0]";
+    for (int k = 0; k <= n; ++k) {
+      const double a = 3.14159265358979 * k / n;
+      if (k < n) polygons += fmt::format("{}[0, {}, {}]", k > 0 ? ", " : "", k + 1, k + 2);
+      vertices += fmt::format(", [{}, {}, {}]", std::cos(a), std::sin(a), 0.8 * std::sin(a));
+    }
+    const Surface fan = complex_surface(
+        fmt::format(R"("complex": {{"polygons": [{}]}}, "vertices": [{}], "degree": 4)", polygons, vertices));
+    const Continuity c = continuity_of(fan);
+    CAPTURE(n);
+    CHECK(c.seams == static_cast<std::size_t>(n - 1));
+    CHECK(c.tangent.value < 1e-9);
+    CHECK(regularity_of(fan).verdict == Regularity::Verdict::regular);
+  }
+}
+
+TEST_CASE("spaces too small for a surface are refused, and numbers too large", "[complex]") {
+  CHECK(says(R"("complex": "octahedron", "degree": 2)") ==
+        "there is but 1 function of degree 2 on this complex, which make no surface: take a higher degree");
+  CHECK(
+      complaint(R"({"type": "gc_octahedron", "control_points": {"h1": [1e308, 0, 0]}})").find("too large") !=
+      std::string::npos);
+  CHECK(
+      says(
+          R"("complex": {"sides": [3], "joins": [{"edges": [[0, 0], [0, 0]]}]}, "control_points": {"rest": [1, 2, 3]})") ==
+      "(2) edge 0 of polygon 0 is glued to itself");
+}
+
 }  // namespace rondure

@@ -140,4 +140,43 @@ TEST_CASE("Figure 3 (a) is curvature continuous, (b) is not (Vidunas 2005, Peter
   CHECK(b.mean.value > 1e-3);
 }
 
+TEST_CASE("seams are found whatever the parameters of their sides and the order of their patches",
+          "[continuity]") {
+  const TensorNet flat = bilinear({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  for (const double ratio : {1.0, 5.0, 30.0, 1000.0}) {
+    // Along x = 1 with weights 1 and `ratio`, up to the right.
+    TensorNet other = bilinear({1, 0, 0}, {2, 0, 1}, {2, 1, 1}, {1, 1, 0});
+    for (const int i : {0, 1}) other.at(i, 1) = ratio * other.at(i, 1);
+    for (const bool swapped : {false, true}) {
+      CAPTURE(ratio, swapped);
+      const Continuity c = continuity_of(swapped ? of({other, flat}) : of({flat, other}));
+      CHECK(c.seams == 1);
+      CHECK(c.open_sides == 6);
+      // A unit of the last place of the parameter moves the point by `ratio` of them at its fast end.
+      CHECK(c.gap.value < 4 * 0x1p-52 * ratio);
+      CHECK(c.tangent.value == Approx(45.0));
+    }
+  }
+  // t^2 along the edge.
+  TensorNet slow(1, 2);
+  for (int j = 0; j <= 2; ++j) {
+    slow.at(0, j) = dvec4(1, j == 2 ? 1 : 0, 0, 1);
+    slow.at(1, j) = dvec4(2, 0.5 * j, 1, 1);
+  }
+  for (const bool swapped : {false, true})
+    CHECK(continuity_of(swapped ? of({slow, flat}) : of({flat, slow})).seams == 1);
+}
+
+TEST_CASE("vertices are measured on surfaces that have no two sides", "[continuity]") {
+  // Four triangles: the tetrahedron with antipodes glued is no surface in space; a square seen as two patches
+  // whose four sides meet crosswise is: a projective plane with its four corners in two points.
+  const TensorNet front = bilinear({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  TensorNet back = front;
+  std::swap(back.at(0, 0), back.at(1, 0));
+  std::swap(back.at(0, 1), back.at(1, 1));
+  const Continuity c = continuity_of(of({front, back}));
+  CHECK(c.closed_vertices == 4);
+  CHECK(c.vertex.patch >= 0);
+}
+
 }  // namespace rondure

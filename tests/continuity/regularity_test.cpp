@@ -154,4 +154,39 @@ TEST_CASE("singular parameters of spheres, collapsed sides and cusps are told ap
   CHECK(regularity_of(build_family(R"({"type": "sphere"})")).verdict == Verdict::undecided);
 }
 
+TEST_CASE("singular lines are found wherever they run", "[regularity]") {
+  for (const double shift : {1.0 / 3.0, 0.37, 0.7071}) {
+    // (t^2, t^3, v), t = u - shift, as above.
+    TensorNet net(3, 1);
+    for (int j = 0; j <= 1; ++j) {
+      for (int i = 0; i <= 3; ++i) {
+        const double a[3] = {(i > 0 ? 1 : 0) - shift, (i > 1 ? 1 : 0) - shift, (i > 2 ? 1 : 0) - shift};
+        net.at(i, j) = dvec4((a[0] * a[1] + a[0] * a[2] + a[1] * a[2]) / 3.0, a[0] * a[1] * a[2], j, 1);
+      }
+    }
+    Surface surface;
+    surface.patches.emplace_back(net);
+    const Regularity r = regularity_of(surface, 20000);
+    CAPTURE(shift);
+    CHECK(r.verdict == Verdict::singular);
+    REQUIRE_FALSE(r.singular.empty());
+    for (const SingularPoint& s : r.singular) CHECK(std::abs(s.u - shift) < 1e-9);
+  }
+}
+
+TEST_CASE("the largest |Su x Sv| that is told is near the largest", "[regularity]") {
+  const Surface sphere = build_family(R"({"type": "gc_octahedron", "basis": "sphere"})");
+  const Regularity r = regularity_of(sphere);
+  double largest = 0.0;
+  for (int i = 0; i <= 40; ++i) {
+    for (int j = 0; j <= 40 - i; ++j) {
+      const SurfaceJet jet = surface_jet(sphere.patches[0], i / 40.0, j / 40.0);
+      largest = std::fmax(largest, glm::length(glm::cross(jet.du, jet.dv)));
+    }
+  }
+  CHECK(largest > 3.7);
+  CHECK(r.largest_found > 0.99 * largest);
+  CHECK(r.least_found < 2.01);
+}
+
 }  // namespace rondure

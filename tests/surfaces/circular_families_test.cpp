@@ -145,4 +145,69 @@ TEST_CASE("arcs without the patch asked for say why", "[surfaces]") {
   refused(t + R"("corners": [[1,0,0],[0,1,0],[1,0,0]]})", "corners[2] and corners[0] are the same");
 }
 
+// Every corner is straight there, at 180 degrees, and the holonomy -1 but for rounding, which decides which
+// root of it is the lesser. The patch covers the side that lies to the left all the same.
+TEST_CASE("sides that run round one circle bound the cap on their left", "[surfaces]") {
+  NetMaker make(52);
+  WorstCase worst;
+  int built = 0, wanted = 0;
+  for (int k = 0; k < 120; ++k) {
+    const int corners = k % 2 == 0 ? 4 : 3;
+    const double z = make.uniform(-0.8, 0.8), r = std::sqrt(1 - z * z);
+    const bool north = k % 4 < 2;
+    const dvec3 axis = glm::normalize(dvec3(make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(0.5, 1)));
+    const dvec3 e1 = glm::normalize(glm::cross(axis, dvec3(0.3, -0.2, 0.9))), e2 = glm::cross(axis, e1);
+    const auto at = [&](double turn) {
+      const dvec3 p = r * std::cos(turn) * e1 + r * std::sin(turn) * e2 + z * axis;
+      return fmt::format("[{}, {}, {}]", p.x, p.y, p.z);
+    };
+    std::vector<double> turns{make.uniform(0, 6)};
+    for (int c = 1; c <= corners; ++c)
+      turns.push_back(turns[0] + (north ? 1 : -1) * 6.283185307179586 *
+                                     (c + (c < corners ? make.uniform(-0.3, 0.3) : 0)) / corners);
+    std::string points, arcs;
+    for (std::size_t c = 0; c + 1 < turns.size(); ++c) {
+      points += (c > 0 ? ", " : "") + at(turns[c]);
+      arcs += (c > 0 ? ", " : "") + fmt::format(R"({{"through": {}}})", at(0.5 * (turns[c] + turns[c + 1])));
+    }
+    ++wanted;
+    const std::string text = fmt::format(R"({{"type": "circular_{}", "corners": [{}], "arcs": [{}]}})",
+                                         corners == 4 ? "quad" : "triangle", points, arcs);
+    INFO(text);
+    REQUIRE(family_error(text) == "no error");
+    const Surface surface = build_family(text);
+    ++built;
+    const Net& net = surface.patches.at(0);
+    // The cap's area, by the midpoint rule: its error is that of some 10^-3 of the whole; the other side's is
+    // off by at least 2 z 2 pi, unless the circle is nearly a great one.
+    double area = 0.0;
+    constexpr int cells = 60;
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        const double u = (i + 0.5) / cells;
+        const double v = (j + 0.5) / cells * (corners == 4 ? 1.0 : 1.0 - u);
+        const SurfaceJet jet = surface_jet(net, u, v);
+        area += glm::dot(jet.point, glm::cross(jet.du, jet.dv)) * (corners == 4 ? 1.0 : 1.0 - u) /
+                (cells * cells);
+      }
+    }
+    worst.add(std::abs(area - 6.283185307179586 * (north ? 1 - z : 1 + z)), 0.03, [&] { return text; });
+  }
+  INFO(worst.text());
+  CHECK(built == wanted);
+  CHECK(worst.failures() == 0);
+  const std::string circle = R"("corners": [[1,0,0.2],[0,1,0.2],[-1,0,0.2],[0,-1,0.2]], "arcs": [
+      {"through": [1,1,0.2828427124746190]}, {"through": [-1,1,0.2828427124746190]},
+      {"through": [-1,-1,0.2828427124746190]}, {"through": [1,-1,0.2828427124746190]}])";
+  CHECK(family_error(R"({"type": "circular_quad", )" + circle + R"(, "construction": "biquadratic"})")
+            .find("here all four are 180 degrees") != std::string::npos);
+}
+
+TEST_CASE("a patch tells the excess of its angles", "[surfaces]") {
+  const Surface surface = quad(cube);
+  REQUIRE(surface.notes.size() == 1);
+  CHECK(surface.notes[0].name == "angle_excess");
+  CHECK(surface.notes[0].value == Approx(120.0));
+}
+
 }  // namespace rondure

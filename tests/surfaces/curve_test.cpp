@@ -189,4 +189,23 @@ TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
         "\"arc\" must be three directions, [x, y, z] each");
 }
 
+TEST_CASE("an interpolation tells its conditioning", "[surfaces]") {
+  const auto condition = [](double gap) {
+    const Surface surface = build_family(fmt::format(
+        R"({{"type": "curve", "interpolate": [[0,0,-1], [1,2,-2], [1,2,{}], [1,4,8], [-2,1,2]],
+             "parameters": [0, 0.2, {}, 0.8, 1]}})",
+        -2 + 10 * gap, 0.2 + gap));
+    REQUIRE(surface.notes.size() == 1);
+    CHECK(surface.notes[0].name == "condition");
+    return surface.notes[0].value;
+  };
+  // As a point and its parameter come to be those of another, their equations do, and the least singular
+  // value is in proportion to what is left between them.
+  const double wide = condition(0.3), near = condition(1e-4), nearer = condition(1e-5);
+  CHECK(wide > 1e-3);
+  CHECK(near < 0.1 * wide);
+  CHECK(nearer / near == Approx(0.1).epsilon(0.05));
+  CHECK(build_family(R"({"type": "curve", "arc": [[1,2,-2], [6,2,3], [1,4,8]]})").notes.empty());
+}
+
 }  // namespace rondure

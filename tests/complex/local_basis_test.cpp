@@ -1,0 +1,65 @@
+// Bases of spline spaces with small supports.
+#include "renderer/complex/local_basis.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "renderer/complex/gc_function.h"
+#include "renderer/complex/shipped.h"
+#include "tests/catch.h"
+
+namespace rondure {
+namespace {
+
+// How many functions live on so many polygons; each is checked to be geometrically continuous, exactly.
+std::map<std::size_t, int> supports_of(const SurfaceComplex& complex, int n) {
+  const SplineSpace space = local_spline_space(complex, n);
+  const SplineSpace plain = spline_space(complex, n);
+  CHECK(space.dimension() == plain.dimension());
+  const GcBasis basis = basis_of(complex, space);
+  std::map<std::size_t, int> count;
+  int broken = 0;
+  for (std::size_t k = 0; k < space.dimension(); ++k) {
+    ++count[support_of(space, k).size()];
+    broken += !is_gc1(complex, function_of(basis, k));
+  }
+  CHECK(broken == 0);
+  // A name each.
+  CHECK(std::set<std::string>(basis.names.begin(), basis.names.end()).size() == space.dimension());
+  if (space.dimension() > 100) return count;  // elimination would take seconds
+  // Independent: as many pivots as functions, by elimination of the functions themselves.
+  std::vector<int> order(static_cast<std::size_t>(space.offsets.back()));
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  CHECK(exact_null_space(space.solutions.basis, order).rank == static_cast<int>(space.dimension()));
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("functions live on few polygons, on every complex from degree 4 on", "[complex]") {
+  using Count = std::map<std::size_t, int>;
+  CHECK(supports_of(octahedron_complex(), 3) == Count{{7, 8}});
+  CHECK(supports_of(octahedron_complex(), 4) == Count{{4, 24}});
+  CHECK(supports_of(octahedron_complex(), 6) == Count{{1, 8}, {2, 48}, {4, 24}});
+  CHECK(supports_of(cube_complex(), 3) == Count{{4, 24}});
+  CHECK(supports_of(cube_complex(), 4) == Count{{1, 6}, {2, 12}, {3, 24}, {4, 12}});
+  // Of 36 rhombi: none reaches further than the polygons around the two ends of an edge.
+  const Count torus = supports_of(torus_complex(4, 3), 4);
+  CHECK(torus.rbegin()->first <= 11);
+  CHECK(torus.at(1) == 36);
+  CHECK(torus.at(2) == 72);
+}
+
+TEST_CASE("on a torus in degree 3 some functions must be wide", "[complex]") {
+  // Regions up to the polygons around a polygon hold 71 independent functions of 108: no basis is more local.
+  const SurfaceComplex complex = torus_complex(4, 3);
+  const SplineSpace space = local_spline_space(complex, 3);
+  CHECK(space.dimension() == 108);
+  int near = 0;
+  for (std::size_t k = 0; k < space.dimension(); ++k) near += support_of(space, k).size() <= 8;
+  CHECK(near == 71);
+  CHECK(largest_entry(space.solutions) < 1e4);
+}
+
+}  // namespace rondure
