@@ -119,9 +119,10 @@ TEST_CASE("an override names the film's layers and keeps their parameters", "[la
   REQUIRE(added.scene.film.layers.size() == 1);
   CHECK(added.scene.film.layers[0].channels[1] == "Jacobian.condition");
   overrides.layers = {"jacobien"};
-  CHECK(first_line(message_of([&] {
-          read_scene_text("s.json", layered_scene, StagedScene::builtins(), overrides);
-        })) == "s.json: layers[0]: unknown layer \"jacobien\"; did you mean \"jacobian\"? (set on the command line)");
+  CHECK(
+      first_line(message_of(
+          [&] { read_scene_text("s.json", layered_scene, StagedScene::builtins(), overrides); })) ==
+      "s.json: layers[0]: unknown layer \"jacobien\"; did you mean \"jacobian\"? (set on the command line)");
 }
 
 }  // namespace

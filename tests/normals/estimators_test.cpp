@@ -146,10 +146,11 @@ double worst_of(const Table& slopes, const std::string& group, const std::string
 }
 
 TEST_CASE("errors beside singular points grow as the analysis says", "[normals]") {
-  for (const auto& [family, group] : {std::pair("hemispheres", "corner of 180 degrees"),
-                                      std::pair("octants", "collapsed side (middle)")}) {
+  for (const auto& [family, group] :
+       {std::pair("hemispheres", "corner of 180 degrees"), std::pair("octants", "collapsed side (middle)")}) {
     CAPTURE(family);
-    const CornerTables t = measure_corners(turned(subjects_named({family}).at(0)), StagedScene::builtins(), false);
+    const CornerTables t =
+        measure_corners(turned(subjects_named({family}).at(0)), StagedScene::builtins(), false);
     const Table slopes = corner_slopes(t.walks);
     // Su x Sv vanishes as the distance, rounding does not: errors grow as its inverse.
     CHECK(slope_of(slopes, group, "cross") == Approx(-1.0).margin(0.15));
@@ -159,7 +160,8 @@ TEST_CASE("errors beside singular points grow as the analysis says", "[normals]"
       CHECK(worst_of(slopes, group, right) < 1e-12);
     }
     CHECK(worst_of(slopes, group, "hodograph") < 1e-9);
-    // Parallel tangents they see, and step away from; beside a collapsed side only one is short, and they do not.
+    // Parallel tangents they see, and step away from; beside a collapsed side only one is short, and they do
+    // not.
     if (family == std::string("hemispheres")) {
       CHECK(worst_of(slopes, group, "shift") < 3e-3);
       CHECK(worst_of(slopes, group, "taylor") < 1e-10);
