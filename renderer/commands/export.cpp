@@ -9,48 +9,26 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "renderer/bezier/triangle_keys.h"
 #include "renderer/bezier/triangle_to_tensor.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/export_preimage.h"
+#include "renderer/commands/net_text.h"
 #include "renderer/scene/scene_reader.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
 namespace {
 
-std::string text_of(const dvec4& p) { return fmt::format("[{}, {}, {}, {}]", p.x, p.y, p.z, p.w); }
-
-std::string text_of(const TensorNet& net) {
-  std::string out = fmt::format(R"({{ "kind": "tensor", "degree": [{}, {}], "net": [)", net.m, net.n);
-  for (int i = 0; i <= net.m; ++i) {
-    out += i > 0 ? ", [" : "[";
-    for (int j = 0; j <= net.n; ++j) out += (j > 0 ? ", " : "") + text_of(net.at(i, j));
-    out += "]";
-  }
-  return out + "] }";
-}
-
-std::string text_of(const TriangleNet& net) {
-  std::string out = fmt::format(R"({{ "kind": "triangle", "degree": {}, "net": {{ )", net.n);
-  for (int i = 0; i <= net.n; ++i) {
-    for (int j = 0; j <= net.n - i; ++j)
-      out += fmt::format(R"({}"{}": {})", i + j > 0 ? ", " : "", triangle_key_name(net.n, i, j),
-                         text_of(net.at(i, j)));
-  }
-  return out + " } }";
-}
-
 // One patch, or the tensor-product patches that stand for a triangular one.
 std::vector<std::string> texts_of(const Net& net, const std::string& form) {
   const auto* triangle = std::get_if<TriangleNet>(&net);
-  if (!triangle) return {text_of(std::get<TensorNet>(net))};
-  if (form == "degenerate") return {text_of(as_degenerate_tensor(*triangle))};
-  if (form == "triangles") return {text_of(*triangle)};
+  if (!triangle) return {tensor_text(std::get<TensorNet>(net))};
+  if (form == "degenerate") return {tensor_text(as_degenerate_tensor(*triangle))};
+  if (form == "triangles") return {triangle_text(*triangle)};
   std::vector<std::string> parts;
-  for (const TensorNet& part : as_three_tensors(*triangle)) parts.push_back(text_of(part));
+  for (const TensorNet& part : as_three_tensors(*triangle)) parts.push_back(tensor_text(part));
   return parts;
 }
 

@@ -8,36 +8,14 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/rational.h"
-#include "renderer/bezier/triangle_keys.h"
+#include "renderer/commands/net_text.h"
 #include "renderer/projective/preimage.h"
 
 namespace rondure {
 namespace {
 
-std::string text_of(const lvec4& p) {
-  const dvec4 q(p);
-  return fmt::format("[{}, {}, {}, {}]", q.x, q.y, q.z, q.w);
-}
-
-std::string text_of(const TensorPreimage& p) {
-  std::string out = fmt::format(R"({{ "kind": "tensor", "degree": [{}, {}], "net": [)", p.m, p.n);
-  for (int i = 0; i <= p.m; ++i) {
-    out += i > 0 ? ", [" : "[";
-    for (int j = 0; j <= p.n; ++j) out += (j > 0 ? ", " : "") + text_of(p.at(i, j));
-    out += "]";
-  }
-  return out + "] }";
-}
-
-std::string text_of(const TrianglePreimage& p) {
-  std::string out = fmt::format(R"({{ "kind": "triangle", "degree": {}, "net": {{ )", p.n);
-  for (int i = 0; i <= p.n; ++i) {
-    for (int j = 0; j <= p.n - i; ++j)
-      out += fmt::format(R"({}"{}": {})", i + j > 0 ? ", " : "", triangle_key_name(p.n, i, j),
-                         text_of(p.at(i, j)));
-  }
-  return out + " } }";
-}
+std::string text_of(const TensorPreimage& p) { return tensor_text(p); }
+std::string text_of(const TrianglePreimage& p) { return triangle_text(p); }
 
 // Of a sphere that a patch may lie on, about the surface's origin; to 13 digits, which undoes the rounding of
 // the radius that a scene gave.

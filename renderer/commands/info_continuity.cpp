@@ -106,8 +106,9 @@ std::string regularity_text(const Json& r) {
         "pieces\n",
         r["patches_with_collapsed_sides"].get<int>(), r["pieces"].get<long>());
   } else if (verdict == "singular") {
-    out = fmt::format("    singular: Su x Sv vanishes at {} points{}\n", r["singular"].size(),
-                      r["singular"].size() == 16 ? " or more" : "");
+    const std::size_t count = r["singular"].size();
+    out = fmt::format("    singular: Su x Sv vanishes at {} point{}{}\n", count, count == 1 ? "" : "s",
+                      count == 16 ? " or more" : "");
     for (const Json& s : r["singular"]) {
       const Json& at = s["at"];
       out += fmt::format("      patch {} at (u, v) = ({:.12g}, {:.12g}), ({:.6g}, {:.6g}, {:.6g})\n",

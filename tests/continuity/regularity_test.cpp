@@ -48,6 +48,21 @@ double sampled_least(const Surface& surface, int cells) {
   return least;
 }
 
+// (t^2, t^3, v) with t = u - shift: a cusp along the line u = shift.
+Surface cusp(double shift) {
+  TensorNet net(3, 1);
+  for (int j = 0; j <= 1; ++j) {
+    // Blossoms of t^2 and t^3 at 0 (3 - i times) and 1 (i times).
+    for (int i = 0; i <= 3; ++i) {
+      const double a[3] = {(i > 0 ? 1 : 0) - shift, (i > 1 ? 1 : 0) - shift, (i > 2 ? 1 : 0) - shift};
+      net.at(i, j) = dvec4((a[0] * a[1] + a[0] * a[2] + a[1] * a[2]) / 3.0, a[0] * a[1] * a[2], j, 1);
+    }
+  }
+  Surface surface;
+  surface.patches.emplace_back(net);
+  return surface;
+}
+
 }  // namespace
 
 TEST_CASE("the open question: eight regular patches over u^2 + v^2 + w^2, in exact arithmetic",
@@ -134,21 +149,8 @@ TEST_CASE("singular parameters of spheres, collapsed sides and cusps are told ap
   CHECK(hemisphere.verdict == Verdict::singular);
   CHECK(hemisphere.singular.size() == 4);
   // (u, v) -> (u^2, u^3, v) has a cusp along u = 0, and (u - 1/2)^2, (u - 1/2)^3 one within, along a line.
-  const auto cusp = [](double shift) {
-    TensorNet net(3, 1);
-    for (int j = 0; j <= 1; ++j) {
-      // Blossoms of t^2 and t^3 at 0 (3 - i times) and 1 (i times), t = u - shift.
-      for (int i = 0; i <= 3; ++i) {
-        const double a[3] = {(i > 0 ? 1 : 0) - shift, (i > 1 ? 1 : 0) - shift, (i > 2 ? 1 : 0) - shift};
-        net.at(i, j) = dvec4((a[0] * a[1] + a[0] * a[2] + a[1] * a[2]) / 3.0, a[0] * a[1] * a[2], j, 1);
-      }
-    }
-    Surface surface;
-    surface.patches.emplace_back(net);
-    return regularity_of(surface, 5000);
-  };
-  CHECK(cusp(0.0).collapsed == 1);
-  const Regularity inside = cusp(0.5);
+  CHECK(regularity_of(cusp(0.0), 5000).collapsed == 1);
+  const Regularity inside = regularity_of(cusp(0.5), 5000);
   CHECK(inside.verdict != Verdict::regular);
   CHECK(inside.least_found == 0.0);
   CHECK(regularity_of(build_family(R"({"type": "sphere"})")).verdict == Verdict::undecided);
@@ -156,17 +158,7 @@ TEST_CASE("singular parameters of spheres, collapsed sides and cusps are told ap
 
 TEST_CASE("singular lines are found wherever they run", "[regularity]") {
   for (const double shift : {1.0 / 3.0, 0.37, 0.7071}) {
-    // (t^2, t^3, v), t = u - shift, as above.
-    TensorNet net(3, 1);
-    for (int j = 0; j <= 1; ++j) {
-      for (int i = 0; i <= 3; ++i) {
-        const double a[3] = {(i > 0 ? 1 : 0) - shift, (i > 1 ? 1 : 0) - shift, (i > 2 ? 1 : 0) - shift};
-        net.at(i, j) = dvec4((a[0] * a[1] + a[0] * a[2] + a[1] * a[2]) / 3.0, a[0] * a[1] * a[2], j, 1);
-      }
-    }
-    Surface surface;
-    surface.patches.emplace_back(net);
-    const Regularity r = regularity_of(surface, 20000);
+    const Regularity r = regularity_of(cusp(shift), 20000);
     CAPTURE(shift);
     CHECK(r.verdict == Verdict::singular);
     REQUIRE_FALSE(r.singular.empty());
