@@ -159,7 +159,7 @@ TEST_CASE("schema and reader agree on every form and every limit of objects", "[
       {false, "/objects/0", R"({"type": "sphere_cap", "wire": 0})"},
       {false, "/objects/0", R"({"type": "sphere", "show": ["surface", "net"]})"},
       {true, "/objects/0", R"({"type": "gc_complex"})"},
-      {true, "/objects/0", R"({"type": "gc_complex", "complex": {"torus": [2, 1]}, "degree": 2})"},
+      {true, "/objects/0", R"({"type": "gc_complex", "complex": {"torus": [2, 1]}, "degree": 4})"},
       {true, "/objects/0", R"({"type": "gc_complex", "complex": "octahedron",
           "control_points": {"rest": [1, 2, 3, 4]}})"},
       {true, "/objects/0", R"({"type": "gc_complex", "complex": {"polygons": [[0, 1, 2], [2, 1, 3]]},
