@@ -1,8 +1,5 @@
 #include "renderer/bezier/mass_properties.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <boost/math/special_functions/ellint_rg.hpp>
 #include <cmath>
@@ -13,6 +10,7 @@
 
 #include "renderer/bezier/patch_integrals.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/parallel/parallel_for.h"
 
 namespace rondure {
 namespace {
@@ -110,10 +108,8 @@ MassProperties of_patches(const Surface& surface) {
   each.most_cells = static_cast<int>(
       std::clamp<std::size_t>(most_cells / std::max<std::size_t>(count, 1), 1, most_cells_of_a_patch));
   std::vector<PatchIntegrals> parts(count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k)
-      parts[k] = integrate_patch(surface.patches[k], frame.middle, each);
-  });
+  parallel_for(count,
+               [&](std::size_t k) { parts[k] = integrate_patch(surface.patches[k], frame.middle, each); });
   Sum shell, solid;
   lvec3 vector_area(0.0L);
   for (const PatchIntegrals& p : parts) {

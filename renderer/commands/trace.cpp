@@ -1,7 +1,6 @@
 // rondure trace: rays in, hits out, as tables.
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 
@@ -9,6 +8,7 @@
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/tracer_of.h"
+#include "renderer/parallel/parallel_for.h"
 #include "renderer/scene/scene_reader.h"
 
 namespace rondure {
@@ -58,7 +58,7 @@ void run_trace(const Registry& registry, const TraceCommand& options) {
     while (rays.size() < block && (more = reader.next(row, present)))
       rays.push_back(read_ray(reader, row, present));
     lines.assign(rays.size(), {});
-    tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t k) {
+    parallel_for(rays.size(), [&](std::size_t k) {
       if (!options.all) return append_hit(lines[k], first + k, tracer.closest(rays[k]));
       const std::vector<Hit> hits = tracer.all(rays[k]);
       if (hits.empty()) append_hit(lines[k], first + k, {});

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "renderer/parallel/handover.h"
+
 namespace rondure {
 namespace {
 
@@ -29,6 +31,7 @@ struct QueryContext {
 
 struct GeometryData {
   const std::vector<Box>* boxes;  // the caller's, and read during the commit only
+  Handover* handover;             // likewise
   std::vector<LeafName> names;
   double pad;
   EmbreeScene::Visitor visitor;
@@ -41,6 +44,7 @@ float up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_l
 
 void bounds_of_leaf(const RTCBoundsFunctionArguments* args) {
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
+  data.handover->take();
   const Box& box = (*data.boxes)[args->primID];
   RTCBounds& out = *args->bounds_o;
   out.lower_x = down(box.low.x - data.pad), out.upper_x = up(box.high.x + data.pad);
@@ -120,7 +124,8 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
     throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);
   self.scene = rtcNewScene(self.device);
-  self.data = {&boxes, std::move(names), 0x1p-19 * radius, visitor};
+  Handover handover;
+  self.data = {&boxes, &handover, std::move(names), 0x1p-19 * radius, visitor};
   RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, &self.data);
@@ -130,8 +135,9 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(self.scene, geometry);
   rtcReleaseGeometry(geometry);
+  handover.give();
   rtcCommitScene(self.scene);
-  self.data.boxes = nullptr;
+  self.data.boxes = nullptr, self.data.handover = nullptr;
   if (const RTCError error = rtcGetDeviceError(self.device); error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree: building the hierarchy failed, error " + std::to_string(error));
 }

@@ -1,7 +1,6 @@
 #include "renderer/intersect/tracer.h"
 
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -17,6 +16,7 @@
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/surface_crossing.h"
 #include "renderer/intersect/twins.h"
+#include "renderer/parallel/parallel_for.h"
 
 namespace rondure {
 namespace {
@@ -294,7 +294,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   self.distinct.resize(firsts.size());
   self.compiled.resize(count);
   std::vector<std::string> errors(firsts.size());
-  tbb::parallel_for(std::size_t{0}, firsts.size(), [&](std::size_t k) {
+  parallel_for(firsts.size(), [&](std::size_t k) {
     try {
       CompiledSurface& compiled = self.distinct[k];
       self.compiled[firsts[k]] = &compiled;
