@@ -15,7 +15,7 @@ namespace rondure {
 
 class Registry {
  public:
-  // Throws std::runtime_error when the name is empty or taken, or the factory is null.
+  // Throws std::runtime_error when the name is empty, improper or taken, or the factory is null.
   void add(SurfaceFamily family);
   void add(IntegratorFactory factory);
   void add(LayerFactory factory);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "renderer/api/abi.h"
+#include "renderer/api/utf8.h"
 
 namespace rondure {
 namespace {
@@ -39,29 +40,33 @@ std::string load_error(const std::string& opened) {
   return text;
 }
 
+// Calls into the plugin; what it throws becomes an error that names it.
+template <class Call>
+auto guarded(const std::string& path, const char* doing, const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    throw std::runtime_error("plugin " + path + ": " + doing + " failed: " + error.what());
+  } catch (...) {
+    throw std::runtime_error("plugin " + path + ": " + doing + " failed with an exception of unknown type");
+  }
+}
+
 void load_file(const std::string& path, Registry& registry) {
   // A name without a slash would be searched for in the system's library folders.
   const std::string opened = fs::absolute(path).string();
-  void* library = dlopen(opened.c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::error_code error;
+  const fs::file_status status = fs::status(opened, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw std::runtime_error("plugin " + path + ": it cannot be loaded: not a regular file");
+  void* library = guarded(path, "loading", [&] { return dlopen(opened.c_str(), RTLD_NOW | RTLD_LOCAL); });
   if (!library) throw std::runtime_error("plugin " + path + ": it cannot be loaded: " + load_error(opened));
 
   const auto abi = entry_point<AbiEntry>(library, "rondure_plugin_abi", path);
   const auto register_all = entry_point<RegisterEntry>(library, "rondure_plugin_register", path);
-  const char* reported = abi();
-  const std::string_view found = reported ? reported : "";
-  if (found != host_abi.text)
-    throw std::runtime_error("plugin " + path +
-                             ": it was built for another Rondure; rebuild it against this one\n" +
-                             "  this program: " + host_abi.text + "\n  the plugin:   " + std::string(found));
-
+  check_abi(path, guarded(path, "telling its ABI", abi));
   Registry extended = registry;  // so that a plugin that fails half-way leaves nothing behind
-  try {
-    register_all(&extended);
-  } catch (const std::exception& error) {
-    throw std::runtime_error("plugin " + path + ": registration failed: " + error.what());
-  } catch (...) {
-    throw std::runtime_error("plugin " + path + ": registration failed with an exception of unknown type");
-  }
+  guarded(path, "registration", [&] { register_all(&extended); });
   registry = std::move(extended);
 }
 
@@ -82,6 +87,14 @@ std::vector<std::string> files_of(const std::string& path) {
 }
 
 }  // namespace
+
+void check_abi(const std::string& path, const char* reported) {
+  const std::string_view found = reported ? reported : "";
+  if (found == host_abi.text) return;
+  throw std::runtime_error(
+      "plugin " + path + ": it was built for another Rondure; rebuild it against this one\n" +
+      "  this program: " + host_abi.text + "\n  the plugin:   " + printable(found, sizeof host_abi.text));
+}
 
 void load_plugin(const std::string& path, Registry& registry) {
   for (const std::string& file : files_of(path)) load_file(file, registry);

@@ -22,6 +22,10 @@ void load_plugin(const std::string& path, Registry& registry);
 // same name came before it.
 void load_plugins(const std::vector<std::string>& paths, Registry& registry);
 
+// Throws std::runtime_error, naming the plugin and both strings, unless `reported` (null counts as empty) is
+// the host's ABI string.
+void check_abi(const std::string& path, const char* reported);
+
 // rondure/plugins beside the core library, wherever that is installed.
 std::string installed_plugin_folder();
 

@@ -1,16 +1,33 @@
 #include "renderer/api/registry.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/api/utf8.h"
+#include "renderer/plugin/build_surface.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
 namespace {
 
+// What stands in scenes, messages and lists alike.
+bool is_name(std::string_view name) {
+  constexpr std::size_t longest = 64;
+  const auto belongs = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return name.size() <= longest && std::all_of(name.begin(), name.end(), belongs);
+}
+
 template <class Map, class Item>
 void add_to(Map& map, Item item, bool callable, const char* kind) {
   if (item.name.empty()) throw std::runtime_error(std::string("a ") + kind + " without a name");
+  if (!is_name(item.name)) {
+    throw std::runtime_error(std::string("the ") + kind + " \"" + printable(item.name) +
+                             "\" has no proper name: at most 64 letters, digits, \"_\", \"-\" and \".\"");
+  }
   if (!callable)
     throw std::runtime_error(std::string("the ") + kind + " \"" + item.name + "\" has no factory");
   const std::string name = item.name;
@@ -67,7 +84,7 @@ const SurfaceFamily& family_of(Params& params, const Registry& registry) {
 Surface nested_surface(Params& params, std::string_view key) {
   if (!params.registry()) params.fail(key, "no family can be named here");
   Params inside = params.object(key);
-  Surface surface = family_of(inside, *params.registry()).build(inside);
+  Surface surface = build_surface(family_of(inside, *params.registry()), inside);
   inside.finish();
   return surface;
 }

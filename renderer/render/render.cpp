@@ -1,17 +1,20 @@
 #include "renderer/render/render.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "renderer/parallel/parallel_for.h"
 
 namespace rondure {
 namespace {
@@ -138,6 +141,17 @@ Film make_film(const Scene& scene, const RenderOptions& options) {
         fmt::format("the crop {},{},{},{} must be a window of 0,0,{},{}: x0,y0 within, x1,y1 just beyond",
                     w.x0, w.y0, w.x1, w.y1, width, height));
   }
+  // A system that promises more memory than it has ends the process later on, in the middle of the work.
+  const double bytes =
+      static_cast<double>(w.width()) * w.height() * (2 * sizeof(PixelSums) + sizeof(PixelGeometry));
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (memory > 0.0 && bytes > memory) {
+    throw std::runtime_error(fmt::format(
+        "a picture of {} x {} pixels takes {:.0f} GB of memory, and there are {:.0f}; --crop renders a "
+        "part of it",
+        w.width(), w.height(), bytes / 1e9, memory / 1e9));
+  }
   Film film(width, height, w);
   for (const FilmLayer& layer : scene.film.layers) {
     for (const std::string& channel : layer.channels) film.add_layer(channel);
@@ -156,7 +170,8 @@ void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const Wo
   film.rest.assign(samples % Film::chunk != 0 ? film.whole.size() : 0, {});
   std::atomic<std::uint64_t> rejected{film.whole_rejected}, whole_rejected{film.whole_rejected};
 
-  const auto render_tile = [&](int tile) {
+  const auto render_tile = [&](std::size_t index) {
+    const int tile = static_cast<int>(index);
     const int x0 = w.x0 + tile % across * tile_side, y0 = w.y0 + tile / across * tile_side;
     const int x1 = std::min(x0 + tile_side, w.x1), y1 = std::min(y0 + tile_side, w.y1);
     for (int y = y0; y < y1; ++y) {
@@ -177,14 +192,22 @@ void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const Wo
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, across * down),
-        [&](const tbb::blocked_range<int>& range) {
-          for (int tile = range.begin(); tile < range.end(); ++tile) render_tile(tile);
-        },
-        tbb::simple_partitioner{});
-  });
+  try {
+    arena.execute([&] {
+      // Qualified: TBB's would be found by the partitioner.
+      rondure::parallel_for(static_cast<std::size_t>(across * down), render_tile, tbb::simple_partitioner{});
+    });
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {  // nobody else throws here
+    throw std::runtime_error(
+        fmt::format("the integrator \"{}\" failed: {}", scene.integrator_name, error.what()));
+  } catch (...) {
+    throw std::runtime_error(
+        fmt::format("the integrator \"{}\" failed with an exception of unknown type", scene.integrator_name));
+  }
   film.has_geometry = true;
   film.samples = samples;
   film.rejected = rejected;

@@ -8,6 +8,7 @@
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/intersect/radial.h"
+#include "renderer/plugin/build_surface.h"
 #include "renderer/scene/show.h"
 #include "renderer/scene/transform_reader.h"
 #include "renderer/scene/unknown_name.h"
@@ -108,7 +109,7 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
   object.material = read_material_name(params, "material", default_material, materials);
   const std::string solver = params.choice("solver", {"newton", "clipping", "radial"}, "radial");
   if (params.raw("normals")) object.normals = read_estimator(params, "normals");
-  object.traced.surface = family.build(params);
+  object.traced.surface = build_surface(family, params);
   const Show show = read_show(params, object.traced.surface);
   const int wire_material = read_material_name(params, "wire_material", contrast_material, materials);
   params.finish();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <new>
 
 #include "renderer/api/utf8.h"
 #include "renderer/scene/default_view.h"
@@ -33,6 +34,26 @@ SamplingSettings read_sampling(Params params) {
   return sampling;
 }
 
+std::unique_ptr<Integrator> make_integrator(const IntegratorFactory& factory, Params& params) {
+  const auto refuse = [&](const std::string& text) {
+    params.fail(fmt::format("the integrator \"{}\" {}", factory.name, text));
+  };
+  std::unique_ptr<Integrator> integrator;
+  try {
+    integrator = factory.create(params);
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse(fmt::format("failed: {}", error.what()));
+  } catch (...) {
+    refuse("failed with an exception of unknown type");
+  }
+  if (!integrator) refuse("made nothing");
+  return integrator;
+}
+
 // The name alone stands for an object with nothing but that "type".
 void read_integrator(Scene& scene, Params& root, const Registry& registry) {
   Value object;
@@ -58,7 +79,7 @@ void read_integrator(Scene& scene, Params& root, const Registry& registry) {
   if (!factory) {
     params.fail("type", unknown_name("integrator", scene.integrator_name, registry.integrator_names()));
   }
-  scene.integrator = factory->create(params);
+  scene.integrator = make_integrator(*factory, params);
   params.finish();
 }
 

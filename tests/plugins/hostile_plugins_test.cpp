@@ -1,0 +1,157 @@
+// Shared objects that break every rule short of ending the process: refused with a message, and the host
+// lives.
+#include <fmt/format.h>
+
+#include "renderer/plugin/builtin.h"
+#include "renderer/plugin/loader.h"
+#include "tests/catch.h"
+#include "tests/commands/command_files.h"
+#include "tests/paths.h"
+#include "tests/process.h"
+
+namespace rondure {
+namespace {
+
+std::string plugin_path(const std::string& name) {
+  return build_folder() + "/hostile_plugins/" + name + ".so";
+}
+
+TEST_CASE("a shared object that is no proper plugin is refused with a reason", "[plugin][hostile]") {
+  const std::string folder = fresh_folder("hostile_plugins");
+  const std::string whole = read_text_file(plugin_path("half"));
+  write_text_file(folder + "/truncated.so", whole.substr(0, whole.size() / 3));
+  write_text_file(folder + "/header.so", whole.substr(0, 40));
+  std::filesystem::create_directory(folder + "/folder.so");
+  std::filesystem::create_symlink("loop.so", folder + "/loop.so");
+  REQUIRE(run_process({"mkfifo", folder + "/fifo.so"}).exit_code == 0);
+  struct Row {
+    std::string path, reason;
+  };
+  const Row table[] = {
+      {plugin_path("abi_null"), "it was built for another Rondure"},
+      {plugin_path("abi_noise"), "it was built for another Rondure"},
+      {plugin_path("abi_throws"), "telling its ABI failed: no ABI today"},
+      {plugin_path("half"), "it has no entry point rondure_plugin_register; build it with"},
+      {plugin_path("missing_symbol"), "it cannot be loaded: undefined symbol: rondure_no_such_function"},
+      {plugin_path("load_throws"), "loading failed: no loading today"},
+      {plugin_path("bad_name"), "registration failed: the surface family \"?[2Jsphere\" has no proper name"},
+      {folder + "/truncated.so", "it cannot be loaded: "},
+      {folder + "/header.so", "it cannot be loaded: file too short"},
+      {folder + "/loop.so", "it cannot be loaded: "},
+      {folder + "/fifo.so", "it cannot be loaded: not a regular file"},
+      {folder + "/folder.so/none.so", "there is no such file or folder"},
+  };
+  for (const Row& row : table) {
+    const ProcessResult result = run_rondure({"list", "--plugin", row.path});
+    CAPTURE(row.path, result.err);
+    CHECK(result.err.starts_with("rondure: error: plugin " + row.path + ": " + row.reason));
+    CHECK(result.err.size() < row.path.size() + 2000);
+    CHECK(result.err.find('\x1b') == std::string::npos);
+    CHECK(result.out.empty());
+    CHECK(result.exit_code == 1);
+  }
+  CHECK(run_rondure({"list", "--plugin", folder + "/folder.so"}).exit_code == 0);  // a folder without plugins
+}
+
+TEST_CASE("a family that breaks its promises is refused at the object", "[plugin][hostile]") {
+  struct Row {
+    std::string as, message;
+  };
+  const Row table[] = {
+      {"empty", "made a surface that has no patches"},
+      {"nan", "made a surface that has a patch 0 that has a control point that is not finite"},
+      {"infinite", "made a surface that has a patch 0 that has a control point that is not finite"},
+      {"few_points", "made a surface that has a patch 0 that has 3 control points, not 4"},
+      {"many_points", "made a surface that has a patch 0 that has 1000 control points, not 4"},
+      {"no_points", "made a surface that has a patch 0 that has 0 control points, not 4"},
+      {"negative_degree",
+       "made a surface that has a patch 0 that has degree (-1, 1), and degrees are 1 to 24"},
+      {"zero_degree", "made a surface that has a patch 0 that has degree (1, 0), and degrees are 1 to 24"},
+      {"large_degree",
+       "made a surface that has a patch 0 that has degree (1000, 1), and degrees are 1 to 24"},
+      {"huge_degree",
+       "made a surface that has a patch 0 that has degree (2147483647, 2147483647), and degrees are 1 to 24"},
+      {"negative_triangle", "made a surface that has a patch 0 that has degree -1, and degrees are 1 to 24"},
+      {"large_triangle", "made a surface that has a patch 0 that has degree 1000, and degrees are 1 to 24"},
+      {"both", "made a surface that is an ellipsoid and patches at once"},
+      {"nan_origin", "made a surface that has an origin that is not finite"},
+      {"nan_guide",
+       "made a surface that has a guide in \"ribs\" that has a control point that is not finite"},
+      {"no_guide",
+       "made a surface that has a guide in \"ribs\" that is a curve of less than two control points"},
+      {"nan_ellipsoid", "made a surface that is an ellipsoid that is not finite"},
+      {"flat_ellipsoid", "made a surface that is an ellipsoid without volume"},
+      {"throws", "failed: no licence for surfaces"},
+      {"throws_number", "failed with an exception of unknown type"},
+  };
+  const std::string folder = fresh_folder("hostile_families");
+  for (const Row& row : table) {
+    write_text_file(folder + "/scene.json",
+                    fmt::format("{{\"objects\": [\n{{ \"type\": \"absurd\", \"as\": \"{}\" }} ] }}", row.as));
+    for (const char* command : {"validate", "info", "export"}) {
+      const ProcessResult result =
+          run_rondure({command, "scene.json", "--plugin", plugin_path("absurd")}, {folder, {}, ""});
+      CAPTURE(command, row.as);
+      CHECK(lines_of(result.err).at(0) ==
+            "rondure: error: scene.json:2:1: objects[0]: the family \"absurd\" " + row.message);
+      CHECK(result.out.empty());
+      CHECK(result.exit_code == 1);
+    }
+  }
+  // What only the solvers can tell, and what no plugin is to blame for.
+  const auto complaint = [&](const std::string& as) {
+    return run_rondure(
+        {"validate", "scene.json", "--plugin", plugin_path("absurd"), "--set", "/objects/0/as=" + as},
+        {folder, {}, ""});
+  };
+  CHECK(complaint("zeros").err.starts_with(
+      "rondure: error: scene.json:2:1: objects[0]: patch 0: a weight is not"));
+  CHECK(complaint("no_memory").err == "rondure: error: out of memory\n");
+  CHECK(complaint("well").exit_code == 0);
+  // Inside another family's object too.
+  write_text_file(folder + "/scene.json",
+                  "{\"objects\": [ { \"type\": \"composed_patch\",\n\"of\": { \"type\": \"absurd\", \"as\": "
+                  "\"nan\" } } ] }");
+  CHECK(run_rondure({"validate", "scene.json", "--plugin", plugin_path("absurd")}, {folder, {}, ""})
+            .err.starts_with(
+                "rondure: error: scene.json:2:7: objects[0].of: the family \"absurd\" made a surface"));
+}
+
+TEST_CASE("an integrator that breaks its promises ends the render with a message", "[plugin][hostile]") {
+  struct Row {
+    std::string as, message;
+  };
+  const Row table[] = {
+      {"null", "scene.json: integrator: the integrator \"absurd\" made nothing (set on the command line)"},
+      {"throws",
+       "scene.json: integrator: the integrator \"absurd\" failed: no licence for integrators (set on the "
+       "command "
+       "line)"},
+      {"throws_number",
+       "scene.json: integrator: the integrator \"absurd\" failed with an exception of unknown type (set on "
+       "the "
+       "command line)"},
+      {"throws_late", "the integrator \"absurd\" failed: no licence for light"},
+      {"throws_number_late", "the integrator \"absurd\" failed with an exception of unknown type"},
+  };
+  const std::string folder = folder_with("hostile_integrators");
+  const auto render = [&](const std::string& as) {
+    return run_rondure(
+        {"render", "scene.json", "--resolution", "8x8", "--spp", "2", "--quiet", "-o", "out.exr", "--plugin",
+         plugin_path("absurd"), "--set", "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}"},
+        {folder, {}, ""});
+  };
+  for (const Row& row : table) {
+    const ProcessResult result = render(row.as);
+    CAPTURE(row.as);
+    CHECK(result.err == "rondure: error: " + row.message + "\n");
+    CHECK(result.exit_code == 1);
+    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
+  }
+  CHECK(render("nan").err.starts_with(
+      "rondure: error: 128 of the picture's samples were negative, not finite"));
+  CHECK(render("well").exit_code == 0);
+}
+
+}  // namespace
+}  // namespace rondure
