@@ -2,13 +2,18 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
+#include "renderer/api/utf8.h"
 #include "renderer/commands/command_line.h"
 #include "renderer/plugin/builtin.h"
 #include "renderer/plugin/loader.h"
@@ -36,6 +41,7 @@ void flush_output() {
 
 int run(int argc, char** argv) {
   hold_standard_descriptors();
+  std::signal(SIGPIPE, SIG_IGN);  // who no longer reads is an error like a full disk, and no sudden end
   const CommandLine line = read_command_line(argc, argv);
   if (line.action) {
     Registry registry;
@@ -47,9 +53,30 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+// Names come from anywhere: nothing in them steers a terminal, and none fills a screen.
+std::string for_terminal(std::string_view message) {
+  constexpr std::size_t longest = 800, tail = 200;  // characters of a line, and of its end where it is cut
+  std::string text;
+  for (std::size_t at = 0; at <= message.size();) {
+    const std::size_t end = std::min(message.find('\n', at), message.size());
+    std::string line = printable(message.substr(at, end - at), std::string::npos);
+    if (line.size() > longest) {
+      const auto whole = [&](std::size_t byte) {  // the start of a character
+        while ((static_cast<unsigned char>(line[byte]) & 0xC0) == 0x80) --byte;
+        return byte;
+      };
+      line = line.substr(0, whole(longest - tail)) + "..." + line.substr(whole(line.size() - tail));
+    }
+    text += line + "\n";
+    at = end + 1;
+  }
+  return text;
+}
+
 int fail(const char* message) {
   // Nothing is left to do where even this cannot be written; fmt::print would throw.
-  for (const char* text : {"rondure: error: ", message, "\n"}) std::fputs(text, stderr);
+  for (const std::string& text : {std::string("rondure: error: "), for_terminal(message)})
+    std::fputs(text.c_str(), stderr);
   return 1;
 }
 
@@ -63,5 +90,7 @@ int main(int argc, char** argv) {
     return rondure::fail("out of memory");
   } catch (const std::exception& error) {
     return rondure::fail(error.what());
+  } catch (...) {  // of a plugin
+    return rondure::fail("an exception of unknown type");
   }
 }

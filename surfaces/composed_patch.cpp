@@ -51,6 +51,12 @@ void check_domain(const Params& params, const Params& domain, const Net& g, cons
                                    fault->point.x, fault->point.y,
                                    triangle ? "x, y >= 0, x + y <= 1" : "[0, 1] x [0, 1]"));
   }
+  if (const auto fold = planar_fold(g)) {
+    domain.fail("net",
+                fmt::format("\"domain\" folds over: it keeps the orientation of the parameters at (u, v) = "
+                            "({:.6g}, {:.6g}) and turns it at ({:.6g}, {:.6g})",
+                            fold->left.x, fold->left.y, fold->right.x, fold->right.y));
+  }
   const int times = std::visit([](const auto& n) { return total_degree(n); }, f);
   const int degree = times * std::visit([](const auto& n) { return largest_degree(n); }, g);
   if (degree > max_degree) {

@@ -247,7 +247,8 @@ std::vector<Params> Params::objects(std::string_view key) {
 
 std::string Params::path(std::string_view key) {
   const Value& value = required(key, Value::Kind::string, "a path");
-  if (value.string.empty()) wrong(*this, value, quote(key), "a path");
+  if (value.string.empty() || value.string.find('\0') != std::string::npos)
+    wrong(*this, value, quote(key), "a path");
   const std::filesystem::path given(value.string);
   if (given.is_absolute() || !source_) return value.string;
   return (std::filesystem::path(source_->name).parent_path() / given).string();

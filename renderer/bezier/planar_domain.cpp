@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
+#include "renderer/bezier/rational.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 
@@ -76,6 +78,26 @@ std::optional<DomainFault> search(const N& net, ParameterDomain domain, int dept
 
 std::optional<DomainFault> domain_fault(const Net& planar, ParameterDomain domain) {
   return std::visit([&](const auto& net) { return search(net, domain, 0); }, planar);
+}
+
+std::optional<PlanarFold> planar_fold(const Net& planar) {
+  constexpr int steps = 16;
+  constexpr double rounding = 1e-9;  // far above what the sums of a net of degree 24 lose
+  const bool triangle = std::holds_alternative<TriangleNet>(planar);
+  std::optional<dvec2> left, right;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= (triangle ? steps - i : steps); ++j) {
+      const dvec2 at = dvec2(i, j) / double(steps);
+      const FirstOrder<dvec4> f = net_first(planar, at.x, at.y);
+      const auto row = [](const dvec4& p) { return dvec3(p.x, p.y, p.w); };
+      const dvec3 p = row(f.value), du = row(f.du), dv = row(f.dv);
+      const double jacobian = glm::dot(p, glm::cross(du, dv));
+      if (!(std::fabs(jacobian) > rounding * glm::length(p) * glm::length(du) * glm::length(dv))) continue;
+      (jacobian > 0.0 ? left : right) = at;
+    }
+  }
+  if (!left || !right) return std::nullopt;
+  return PlanarFold{*left, *right};
 }
 
 }  // namespace rondure

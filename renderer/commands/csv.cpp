@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <system_error>
 
 #include "renderer/film/atomic_file.h"
 
@@ -57,7 +58,8 @@ CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns, 
       file_(nullptr, &std::fclose),
       in_(stdin) {
   if (path == "-") return;
-  if (std::filesystem::is_directory(path))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
     throw std::runtime_error(fmt::format("{}: is a folder, not a file", path));
   file_.reset(std::fopen(path.c_str(), "rb"));
   if (!file_) throw std::runtime_error(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));

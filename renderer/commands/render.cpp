@@ -13,6 +13,7 @@
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/distinct_paths.h"
+#include "renderer/commands/scene_warnings.h"
 #include "renderer/commands/solver_names.h"
 #include "renderer/commands/tracer_of.h"
 #include "renderer/film/atomic_file.h"
@@ -140,6 +141,7 @@ void run_render(const Registry& registry, RenderCommand options) {
   }
   const std::string key = options.resume ? resume_key(scene, film) : "";
   const std::string solvers = solver_names(scene);
+  for (const std::string& warning : scene_warnings(scene)) note(options, warning);
   const Tracer tracer = tracer_of(scene);
   const World world = make_world(scene, tracer);
   render_film(film, scene, world, settings, key, options);

@@ -30,9 +30,25 @@ int synchronise(const std::string& path, int flags) {
   return error;
 }
 
+// Where a chain of links leads, also to a file that does not exist yet. Throws for a chain without an end.
+std::string behind_links(const std::string& target) {
+  constexpr int longest_chain = 40;  // the kernel's own limit
+  std::error_code error;
+  std::filesystem::path path = target;
+  for (int k = 0; std::filesystem::is_symlink(path, error); ++k) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (k == longest_chain) refuse(target, ELOOP);
+    if (error) refuse(target, error.value());
+    path = path.parent_path() / next;  // an absolute one takes the place of both
+  }
+  return path.string();
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(std::string target, const std::string& suffix) : target_(std::move(target)) {
+AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
+  // The file that a link leads to gives way, and the link stays.
+  target_ = behind_links(target_);
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
   if (std::filesystem::is_directory(status)) refuse(target_, EISDIR);
@@ -40,14 +56,10 @@ AtomicFile::AtomicFile(std::string target, const std::string& suffix) : target_(
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     refuse(target_, "not a regular file");
   }
-  // The file that a link leads to gives way, and the link stays.
-  if (std::filesystem::exists(status) && std::filesystem::is_symlink(target_, ignored)) {
-    target_ = std::filesystem::canonical(target_, ignored).string();
-  }
-  const std::string name = target_ + ".part-XXXXXX" + suffix;
+  const std::string name = target_ + ".part-XXXXXX";
   std::vector<char> buffer(name.begin(), name.end());
   buffer.push_back('\0');
-  const int file = mkostemps(buffer.data(), static_cast<int>(suffix.size()), O_CLOEXEC);
+  const int file = mkostemp(buffer.data(), O_CLOEXEC);
   if (file < 0) refuse(target_, errno);
   temporary_.assign(buffer.data());
   // mkstemp makes files for their owner alone; a picture gets what the user's mask allows.

@@ -9,8 +9,8 @@ namespace rondure {
 // that it is deleted.
 class AtomicFile {
  public:
-  // Throws std::runtime_error naming the target and the reason. `suffix` ends the temporary name.
-  explicit AtomicFile(std::string target, const std::string& suffix = "");
+  // Throws std::runtime_error naming the target and the reason.
+  explicit AtomicFile(std::string target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

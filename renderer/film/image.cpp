@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "renderer/film/atomic_file.h"
@@ -47,7 +48,7 @@ struct Failure {
 
 }  // namespace
 
-void require_image_module() { module_symbol(write_png_name); }
+void require_image_module() { module_symbol(encode_png_name); }
 
 Image read_image(const std::string& path) {
   const auto read = reinterpret_cast<ReadImageFunction>(module_symbol(read_image_name));
@@ -77,12 +78,19 @@ void draw_text(std::vector<unsigned char>& rgb, int width, int height, dvec2 at,
 }
 
 void write_png(const std::string& path, int width, int height, const std::vector<unsigned char>& rgb) {
-  const auto write = reinterpret_cast<WritePngFunction>(module_symbol(write_png_name));
-  AtomicFile file(path, ".png");
+  const auto encode = reinterpret_cast<EncodePngFunction>(module_symbol(encode_png_name));
+  AtomicFile file(path);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  const auto take = [](void* to, const void* bytes, std::size_t count) {
+    static_cast<std::ofstream*>(to)->write(static_cast<const char*>(bytes),
+                                           static_cast<std::streamsize>(count));
+  };
   Failure failure;
-  if (!write(file.temporary().c_str(), width, height, rgb.data(), &failure.report)) {
+  if (!encode(width, height, rgb.data(), &stream, take, &failure.report)) {
     throw std::runtime_error(fmt::format("{}: cannot write the image: {}", path, failure.message));
   }
+  stream.close();
+  if (!stream) throw std::runtime_error(fmt::format("{}: cannot write: the disk is full or failed", path));
   file.commit();
 }
 

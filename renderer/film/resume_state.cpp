@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "renderer/film/atomic_file.h"
 #include "renderer/sampling/hash.h"
@@ -59,6 +61,10 @@ void write_resume_state(const std::string& path, const std::string& key, const F
 }
 
 bool read_resume_state(const std::string& path, const std::string& key, Film& film) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw std::runtime_error(fmt::format("{}: cannot hold samples: not a regular file", path));
   std::ifstream file(path, std::ios::binary);
   if (!file) return false;
   char mark[sizeof magic];

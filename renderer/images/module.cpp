@@ -1,13 +1,19 @@
 // Reads pictures and writes previews through OpenImageIO. Built as a module; see renderer/film/image.h.
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "renderer/images/entry_points.h"
 
@@ -24,11 +30,52 @@ std::size_t index(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
+// Some of the formats' libraries print what the caller is told anyway.
+class QuietErrors {
+ public:
+  QuietErrors() : saved_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~QuietErrors() {
+    if (saved_ < 0) return;
+    dup2(saved_, STDERR_FILENO);
+    close(saved_);
+  }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  int saved_;
+};
+
+// A header may claim any size; memory is asked for only up to this one: 16384 x 8192, 1.6 GB in float RGB.
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 27;
+constexpr int most_channels = 64;
+
+bool too_large(int width, int height, int channels) {
+  if (width <= 0 || height <= 0 || channels <= 0 || channels > most_channels) return true;
+  const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return pixels > most_pixels / static_cast<std::uint64_t>(std::max(1, channels / 4));
+}
+
 bool read(const char* path, rondure::Image& image, const rondure::ImageReport* report) {
+  const QuietErrors quiet;
   const auto input = OIIO::ImageInput::open(path);
   if (!input) return fail(report, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   const int channels = spec.nchannels;
+  if (spec.deep || spec.depth > 1) return fail(report, "it is no flat picture");
+  for (const auto& [width, height] :
+       {std::pair(spec.width, spec.height), std::pair(spec.full_width, spec.full_height)}) {
+    if (too_large(width, height, channels)) {
+      return fail(report, "it claims " + std::to_string(width) + " x " + std::to_string(height) +
+                              " pixels of " + std::to_string(channels) + " channels; up to " +
+                              std::to_string(most_pixels) + " pixels are read");
+    }
+  }
   const bool encoded =
       spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16;
   const auto stride = static_cast<std::size_t>(channels);
@@ -38,8 +85,8 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
     return fail(report, input->geterror());
   }
   // The file's pixels lie anywhere in the picture, or beyond it; where there are none it is black.
-  image.width = spec.full_width > 0 ? spec.full_width : spec.width;
-  image.height = spec.full_height > 0 ? spec.full_height : spec.height;
+  image.width = spec.full_width;
+  image.height = spec.full_height;
   const int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
   image.rgb.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3, 0.0f);
   const int colours = channels >= 3 ? 3 : 1;  // grey, or grey and alpha, otherwise
@@ -56,13 +103,16 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
   return true;
 }
 
-bool write(const char* path, int width, int height, const unsigned char* rgb,
-           const rondure::ImageReport* report) {
-  const auto output = OIIO::ImageOutput::create(path);
+// To memory: the library's own way to a file tells nothing of a full disk.
+bool encode(int width, int height, const unsigned char* rgb, std::vector<unsigned char>& bytes,
+            const rondure::ImageReport* report) {
+  OIIO::Filesystem::IOVecOutput target(bytes);
+  const auto output = OIIO::ImageOutput::create("preview.png", &target);
   if (!output) return fail(report, OIIO::geterror());
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  if (!output->open(path, spec) || !output->write_image(OIIO::TypeDesc::UINT8, rgb) || !output->close()) {
+  if (!output->open("preview.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, rgb) ||
+      !output->close()) {
     return fail(report, output->geterror());
   }
   return true;
@@ -104,10 +154,14 @@ extern "C" bool rondure_draw_text(unsigned char* rgb, int width, int height, int
   }
 }
 
-extern "C" bool rondure_write_png(const char* path, int width, int height, const unsigned char* rgb,
-                                  const rondure::ImageReport* report) {
+extern "C" bool rondure_encode_png(int width, int height, const unsigned char* rgb, void* context,
+                                   void (*take)(void*, const void*, std::size_t),
+                                   const rondure::ImageReport* report) {
   try {
-    return write(path, width, height, rgb, report);
+    std::vector<unsigned char> bytes;
+    if (!encode(width, height, rgb, bytes, report)) return false;
+    take(context, bytes.data(), bytes.size());
+    return true;
   } catch (const std::exception& e) {
     return fail(report, e.what());
   }

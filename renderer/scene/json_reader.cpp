@@ -64,6 +64,7 @@ class TreeBuilder {
   const SourceText& source_;
   TextCursor cursor_;
   Value& root_;
+  std::size_t values_ = 0;
   std::vector<Value*> open_;    // innermost last; stable, since only the innermost grows
   SourcePosition word_;         // of the latest number or literal
   std::size_t word_start_ = 0;  // its offset
@@ -74,6 +75,8 @@ class TreeBuilder {
 
   Value& place(Value::Kind kind) {
     cursor_.skip_to_token();
+    if (++values_ > max_json_values)
+      fail(cursor_.where(), fmt::format("more than {} values", max_json_values));
     Value* value = &root_;
     if (!open_.empty()) {
       Value& parent = *open_.back();

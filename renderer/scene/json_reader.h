@@ -2,7 +2,8 @@
 //
 // The language is JSON (RFC 8259) with // and /* */ comments. Refused, with file, line and column: duplicate
 // keys, anything after the document, text that is not UTF-8, numbers beyond the range of a double (so NaN and
-// infinities cannot occur), nesting deeper than 256, files over 1 GiB.
+// infinities cannot occur), nesting deeper than 256, files over 512 MiB, more than 2^25 values (4 GB as a
+// tree).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,8 @@
 
 namespace rondure {
 
-inline constexpr std::size_t max_json_bytes = std::size_t{1} << 30;
+inline constexpr std::size_t max_json_bytes = std::size_t{1} << 29;
+inline constexpr std::size_t max_json_values = std::size_t{1} << 25;
 inline constexpr int max_json_depth = 256;
 
 struct Document {

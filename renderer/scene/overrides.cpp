@@ -8,6 +8,7 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/scene/json_reader.h"
+#include "renderer/scene/text_file.h"
 
 namespace rondure {
 namespace {
@@ -111,15 +112,19 @@ Value& element(Value& array, const std::string& step, const std::string& pointer
 }
 
 void set(Value& root, const std::string& assignment) {
+  refuse_bad_text({"--set", assignment});
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals < 2 || assignment[0] != '/') {
     refuse(fmt::format("--set takes /json/pointer=value, such as /sampling/spp=16, found \"{}\"",
                        printable(assignment)));
   }
   const std::string pointer = assignment.substr(0, equals);
+  const std::vector<std::string> steps = steps_of(pointer);
+  if (steps.size() > static_cast<std::size_t>(max_json_depth))
+    refuse(fmt::format("--set {}: deeper than {} levels", printable(pointer), max_json_depth));
   Value* at = &root;
   std::string walked;
-  for (const std::string& step : steps_of(pointer)) {
+  for (const std::string& step : steps) {
     // A key that the line above has just created.
     if (at->kind == Value::Kind::null && at->where.line < 1) at->kind = Value::Kind::object;
     if (at->kind == Value::Kind::array) {

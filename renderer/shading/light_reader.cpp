@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <system_error>
 
 #include "renderer/shading/light.h"
 
@@ -26,8 +27,13 @@ EnvironmentLight read_environment(Params& params) {
   EnvironmentLight light;
   light.file = params.path("file");
   light.file_where = params.raw("file")->where;
-  if (std::filesystem::is_directory(light.file)) params.fail("file", "a folder, not a file: " + light.file);
-  if (!std::filesystem::is_regular_file(light.file)) params.fail("file", "no such file: " + light.file);
+  std::error_code error;
+  const auto status = std::filesystem::status(light.file, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    params.fail("file", "no such file: " + light.file);
+  if (error) params.fail("file", light.file + ": " + error.message());
+  if (std::filesystem::is_directory(status)) params.fail("file", "a folder, not a file: " + light.file);
+  if (!std::filesystem::is_regular_file(status)) params.fail("file", "not a regular file: " + light.file);
   light.scale = params.color("scale", light.scale);
   // One number turns about z; three turn about x, then y, then z.
   dvec3 angles(0.0);
