@@ -1,10 +1,10 @@
 #include "renderer/intersect/twins.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cstring>
 #include <string_view>
 #include <unordered_map>
+
+#include "renderer/parallel/parallel_for.h"
 
 namespace rondure {
 namespace {
@@ -48,8 +48,7 @@ std::size_t hash_of(const TracedSurface& traced) {
 
 std::vector<unsigned> find_twins(const std::vector<TracedSurface>& surfaces) {
   std::vector<std::size_t> hashes(surfaces.size());
-  tbb::parallel_for(std::size_t{0}, surfaces.size(),
-                    [&](std::size_t k) { hashes[k] = hash_of(surfaces[k]); });
+  parallel_for(surfaces.size(), [&](std::size_t k) { hashes[k] = hash_of(surfaces[k]); });
   std::vector<unsigned> twins(surfaces.size());
   std::unordered_multimap<std::size_t, unsigned> firsts;
   for (unsigned k = 0; k < surfaces.size(); ++k) {

@@ -12,6 +12,7 @@
 
 #include "renderer/api/abi.h"
 #include "renderer/api/utf8.h"
+#include "renderer/plugin/trial.h"
 
 namespace rondure {
 namespace {
@@ -52,6 +53,17 @@ auto guarded(const std::string& path, const char* doing, const Call& call) {
   }
 }
 
+void load_now(const std::string& path, const std::string& opened, Registry& registry) {
+  void* library = dlopen(opened.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) throw std::runtime_error("plugin " + path + ": it cannot be loaded: " + load_error(opened));
+  const auto abi = entry_point<AbiEntry>(library, "rondure_plugin_abi", path);
+  const auto register_all = entry_point<RegisterEntry>(library, "rondure_plugin_register", path);
+  check_abi(path, guarded(path, "telling its ABI", abi));
+  Registry extended = registry;  // so that a plugin that fails half-way leaves nothing behind
+  guarded(path, "registration", [&] { register_all(&extended); });
+  registry = std::move(extended);
+}
+
 void load_file(const std::string& path, Registry& registry) {
   // A name without a slash would be searched for in the system's library folders.
   const std::string opened = fs::absolute(path).string();
@@ -59,15 +71,14 @@ void load_file(const std::string& path, Registry& registry) {
   const fs::file_status status = fs::status(opened, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw std::runtime_error("plugin " + path + ": it cannot be loaded: not a regular file");
-  void* library = guarded(path, "loading", [&] { return dlopen(opened.c_str(), RTLD_NOW | RTLD_LOCAL); });
-  if (!library) throw std::runtime_error("plugin " + path + ": it cannot be loaded: " + load_error(opened));
-
-  const auto abi = entry_point<AbiEntry>(library, "rondure_plugin_abi", path);
-  const auto register_all = entry_point<RegisterEntry>(library, "rondure_plugin_register", path);
-  check_abi(path, guarded(path, "telling its ABI", abi));
-  Registry extended = registry;  // so that a plugin that fails half-way leaves nothing behind
-  guarded(path, "registration", [&] { register_all(&extended); });
-  registry = std::move(extended);
+  // The loader reads what a cut-off file lacks, and nobody can catch what a constructor throws.
+  const std::string end = end_of_trial([&] {
+    Registry scratch = registry;
+    load_now(path, opened, scratch);
+  });
+  if (!end.empty())
+    throw std::runtime_error("plugin " + path + ": it ends the process that loads it: " + end);
+  load_now(path, opened, registry);
 }
 
 // The shared objects that `path` stands for: itself, or a folder's *.so.

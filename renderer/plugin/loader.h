@@ -2,8 +2,9 @@
 //
 // A plugin has two C entry points: `const char* rondure_plugin_abi()` and
 // `void rondure_plugin_register(rondure::Registry*)`. The first is called before anything else, and a plugin
-// whose answer differs from the host's is refused. A plugin is never unloaded: what it registered lives in
-// it.
+// whose answer differs from the host's is refused. All of this is tried in a child process before, so that a
+// file that ends the process that loads it is refused too. A plugin is never unloaded: what it registered
+// lives in it.
 #pragma once
 
 #include <string>
