@@ -69,11 +69,16 @@ struct TensorShape {
     return along_a >= along_b ? 0 : 1;
   }
 
-  // Halves the cell across a (edge 0) or b (edge 1); `low` and `high` receive the two nets.
+  // Halves the cell across a (edge 0) or b (edge 1).
+  static void halve(const Cell& c, int edge, Cell& low, Cell& high) {
+    low = high = c;
+    low.high[edge] = high.low[edge] = 0.5 * (c.low[edge] + c.high[edge]);
+  }
+
+  // The same; `low` and `high` receive the two nets.
   template <class T>
   void halve(const T* f, const Cell& c, int edge, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
-    low_cell = high_cell = c;
-    low_cell.high[edge] = high_cell.low[edge] = 0.5 * (c.low[edge] + c.high[edge]);
+    halve(c, edge, low_cell, high_cell);
     if (edge == 0)
       tensor_halve_u(f, m, n, low, high);
     else
@@ -149,14 +154,19 @@ struct TriangleShape {
     return static_cast<int>(std::max_element(change, change + 3) - change);
   }
 
+  static void halve(const Cell& c, int edge, Cell& low, Cell& high) {
+    const int next = (edge + 1) % 3;
+    low = high = c;
+    low.corner[next] = high.corner[edge] = 0.5 * (c.corner[edge] + c.corner[next]);
+  }
+
   template <class T>
   void halve(const T* f, const Cell& c, int edge, T* low, T* high, Cell& low_cell, Cell& high_cell) const {
     static constexpr dvec2 local[3] = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};
     const int next = (edge + 1) % 3;
     dvec2 low_corner[3] = {local[0], local[1], local[2]}, high_corner[3] = {local[0], local[1], local[2]};
     low_corner[next] = high_corner[edge] = 0.5 * (local[edge] + local[next]);
-    low_cell = high_cell = c;
-    low_cell.corner[next] = high_cell.corner[edge] = 0.5 * (c.corner[edge] + c.corner[next]);
+    halve(c, edge, low_cell, high_cell);
     triangle_restrict(f, n, low_corner, low);
     triangle_restrict(f, n, high_corner, high);
   }

@@ -6,6 +6,7 @@
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/leaf_frame.h"
+#include "renderer/intersect/restriction.h"
 
 namespace rondure {
 namespace {
@@ -43,7 +44,8 @@ void place(const TriangleCell& c, Leaf& leaf) {
 template <class Shape>
 class Builder {
  public:
-  Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, int depth, LeafSet& out)
+  Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, int depth, Restriction& restriction,
+          LeafSet& out)
       : shape_(shape),
         net_(net),
         patch_(patch),
@@ -51,35 +53,41 @@ class Builder {
         out_(out),
         magnitudes_(net.size()),
         points_(net.size()),
-        inner_(net.size()) {
+        inner_(net.size()),
+        restrict_(restriction) {
     for (std::size_t k = 0; k < net.size(); ++k) magnitudes_[k] = glm::abs(net[k]);
   }
 
-  void divide(const typename Shape::Cell& cell, int depth) {
+  // `uneven`: how many more halvings there must be, at least, before a leaf can be tame.
+  void divide(const typename Shape::Cell& cell, int depth, int uneven = 0) {
     const dvec4* net = net_.data();
-    shape_.restrict_to(net, cell, points_.data());
-    Box box;
-    bool positive = true;
-    for (const dvec4& p : points_) {
-      positive = positive && p.w > 0.0;
-      if (p.w > 0.0) box.add(dvec3(p) / p.w);
-    }
     Leaf leaf;
     leaf.patch = patch_;
     place(cell, leaf);
     const SecondOrder<dvec4> center = shape_.second(net, Shape::to_patch(cell, Shape::center()));
-    Evenness evenness;
-    if (positive) {
-      leaf.scale = scale_of(cell);
-      shape_.restrict_to(net, enlarged(cell), inner_.data());
-      evenness = set_frame(shape_, center, points_, inner_, leaf);
-    }
-    const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
-    if (tame || (positive && depth >= depth_)) {
-      some_tame_ = some_tame_ || tame;
-      out_.leaves.push_back(leaf);
-      out_.boxes.push_back(box);
-      return;
+    bool positive = false;
+    if (uneven == 0 || depth >= depth_) {
+      restrict_(shape_, net, cell, points_.data());
+      Box box;
+      positive = true;
+      for (const dvec4& p : points_) {
+        positive = positive && p.w > 0.0;
+        if (p.w > 0.0) box.add(dvec3(p) / p.w);
+      }
+      Evenness evenness;
+      if (positive) {
+        leaf.scale = scale_of(cell);
+        restrict_(shape_, net, enlarged(cell), inner_.data());
+        evenness = set_frame(shape_, center, points_, inner_, leaf);
+      }
+      const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
+      if (tame || (positive && depth >= depth_)) {
+        some_tame_ = some_tame_ || tame;
+        out_.leaves.push_back(leaf);
+        out_.boxes.push_back(box);
+        return;
+      }
+      uneven = halvings_left(evenness);
     }
     if (depth >= weight_depth)
       throw std::runtime_error(
@@ -92,10 +100,9 @@ class Builder {
       edge = longer_across_a(center, leaf) ? 0 : 1;
     else
       edge = Shape::longest_edge(cell);
-    std::vector<dvec4> scratch(points_.size() * 2);
-    shape_.halve(points_.data(), cell, edge, scratch.data(), scratch.data() + points_.size(), low, high);
-    divide(low, depth + 1);
-    divide(high, depth + 1);
+    Shape::halve(cell, edge, low, high);
+    divide(low, depth + 1, std::max(uneven - 1, 0));
+    divide(high, depth + 1, std::max(uneven - 1, 0));
   }
 
   bool some_tame() const { return some_tame_; }
@@ -108,10 +115,18 @@ class Builder {
   LeafSet& out_;
   std::vector<dvec4> magnitudes_;  // |P_ij|, componentwise
   std::vector<dvec4> points_, inner_;
+  Restriction& restrict_;
   bool some_tame_ = false;
 
+  // Unevenness halves with the leaf's size at best, for which each parameter must be halved; to be safe, only
+  // what is far too uneven goes unexamined.
+  static int halvings_left(const Evenness& e) {
+    const double excess = std::max(e.straight / straight_target, e.oblique / oblique_target);
+    return excess < 1e6 ? std::max(static_cast<int>(2.0 * std::log2(excess)) - 3, 0) : 0;
+  }
+
   NetScale scale_of(const typename Shape::Cell& cell) {
-    shape_.restrict_to(magnitudes_.data(), cell, inner_.data());
+    restrict_(shape_, magnitudes_.data(), cell, inner_.data());
     NetScale scale;
     for (const dvec4& p : inner_) {
       scale.position = std::fmax(scale.position, largest(dvec3(p)));
@@ -148,6 +163,7 @@ void check_finite(const std::vector<dvec4>& points, int patch) {
 
 LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without) {
   LeafSet out;
+  static thread_local Restriction restriction;  // what it knows serves the next surface too
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const int patch = static_cast<int>(k);
     check_finite(points_of(patches[k]), patch);
@@ -155,7 +171,7 @@ LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::
     const auto build = [&](auto shape, int degree, const std::vector<dvec4>& points) {
       if (degree > max_degree)
         throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, degree, max_degree));
-      Builder<decltype(shape)> builder(shape, points, patch, max_depth, out);
+      Builder<decltype(shape)> builder(shape, points, patch, max_depth, restriction, out);
       builder.divide({}, 0);
       if (!builder.some_tame()) check_area(patches[k], patch);
     };
