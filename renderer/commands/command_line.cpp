@@ -43,7 +43,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("/json/pointer=value")
       ->allow_extra_args(false);
   command
-      .add_option("--solver", options.overrides.solver, "Solver of every object: newton, clipping or radial")
+      .add_option("--solver", options.overrides.solver, "Solver of every object: auto, newton, clipping, radial or quadric")
       ->type_name("NAME");
 }
 

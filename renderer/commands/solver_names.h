@@ -12,9 +12,10 @@ namespace rondure {
 
 inline std::string solver_name(const TracedSurface& traced) {
   if (traced.surface.ellipsoid) return "closed form";
-  return traced.solver == Solver::clipping ? "clipping"
-         : traced.solver == Solver::radial ? "radial"
-                                           : "newton";
+  return traced.solver == Solver::clipping  ? "clipping"
+         : traced.solver == Solver::radial  ? "radial"
+         : traced.solver == Solver::quadric ? "quadric"
+                                            : "newton";
 }
 
 // Each that some object uses, in the order of the alphabet: "closed form, newton". The scene must still hold

@@ -100,7 +100,8 @@ bool count_memory(void* total, ssize_t bytes, bool) {
 
 float round_far(double t) {
   if (!(t < 1e30)) return std::numeric_limits<float>::infinity();
-  return up(std::fmax(t, 0.0) * (1.0 + 0x1p-20));
+  // Rounded to nearest, which is half of this margin at most.
+  return static_cast<float>(std::max(t, 0.0) * (1.0 + 0x1p-19)) + 0x1p-100f;
 }
 
 struct EmbreeScene::Implementation {

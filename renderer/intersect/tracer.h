@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@
 
 namespace rondure {
 
-// `radial`: in one unknown where a patch allows it (radial.h), else as `newton`.
-enum class Solver { newton, clipping, radial };
+// `radial`: in one unknown where a patch allows it (radial.h); `quadric`: in closed form where patches lie on
+// an ellipsoid (sphere_solver.h). Other patches of these surfaces are met as by `newton`.
+enum class Solver { newton, clipping, radial, quadric };
 
 // A surface and the solver that meets it.
 struct TracedSurface {
@@ -46,6 +48,9 @@ class Tracer {
 
   Hit closest(const Ray& ray) const noexcept;
   bool occluded(const Ray& ray) const noexcept;
+  // The same for many rays at once, hit k of ray k; the same bits, too. Both spans have one length.
+  void closest(std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
+  void occluded(std::span<const Ray> rays, std::span<bool> occluded) const noexcept;
   // Every hit in order of t; a point on the seam of two patches of one surface is reported once.
   std::vector<Hit> all(const Ray& ray) const;
 

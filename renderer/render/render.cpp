@@ -7,11 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <new>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "renderer/parallel/parallel_for.h"
@@ -45,14 +48,27 @@ bool is_radiance(const dvec3& v) {
   return v.x >= 0.0 && v.y >= 0.0 && v.z >= 0.0 && v.x <= most && v.y <= most && v.z <= most;
 }
 
+// The samples of one pixel that one chunk of the film holds: their camera rays are met together.
+struct Samples {
+  std::array<std::optional<Sampler>, Film::chunk> samplers;
+  std::array<Ray, Film::chunk> rays;
+  std::array<Hit, Film::chunk> first;
+};
+
+void take_rays(const Job& job, int x, int y, std::uint32_t from, std::size_t count, Samples& samples) {
+  for (std::size_t k = 0; k < count; ++k) {
+    samples.samplers[k].emplace(job.scene.sampling.seed, x, y, from + static_cast<std::uint32_t>(k));
+    Sampler& sampler = *samples.samplers[k];
+    const dvec2 offset = job.scene.film.filter.sample(sampler.next_2d());
+    const dvec2 lens = sampler.next_2d();
+    const dvec2 point = film_point(job, x + 0.5 + offset.x, y + 0.5 + offset.y);
+    samples.rays[k] = camera_ray(job.scene.camera, job.aspect, point, lens);
+  }
+  job.world.tracer().closest(std::span(samples.rays.data(), count), std::span(samples.first.data(), count));
+}
+
 // One sample; false when its colour had to be dropped.
-bool take_sample(const Job& job, int x, int y, std::uint32_t index, FilmSample& sample) {
-  Sampler sampler(job.scene.sampling.seed, x, y, index);
-  const dvec2 offset = job.scene.film.filter.sample(sampler.next_2d());
-  const dvec2 lens = sampler.next_2d();
-  const dvec2 point = film_point(job, x + 0.5 + offset.x, y + 0.5 + offset.y);
-  const Ray ray = camera_ray(job.scene.camera, job.aspect, point, lens);
-  const Hit first = job.world.tracer().closest(ray);
+bool take_sample(const Job& job, const Ray& ray, const Hit& first, Sampler& sampler, FilmSample& sample) {
   if (first) {
     sample.alpha = 1.0;
     sample.normal = job.world.shading_normal(first);
@@ -98,16 +114,21 @@ PixelGeometry take_geometry(const Job& job, int x, int y, Film& film) {
 // Adds the job's samples to the pixel's whole chunks and returns what is left over.
 PixelResult render_pixel(const Job& job, int x, int y, PixelSums& whole) {
   PixelResult result;
-  for (std::uint32_t i = job.from; i < job.to; ++i) {
-    FilmSample sample;
-    if (!take_sample(job, x, y, i, sample)) ++result.rejected;
-    result.rest.add(sample);
-    if ((i + 1) % Film::chunk == 0) {
-      whole.add(result.rest);
-      result.rest = {};
-      result.whole_rejected = result.rejected;
-      if (job.options.stop && job.options.stop()) throw Interrupted{};
+  Samples samples;
+  for (std::uint32_t from = job.from; from < job.to; from += Film::chunk) {
+    const std::uint32_t count = std::min<std::uint32_t>(Film::chunk, job.to - from);
+    take_rays(job, x, y, from, count, samples);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      FilmSample sample;
+      if (!take_sample(job, samples.rays[k], samples.first[k], *samples.samplers[k], sample))
+        ++result.rejected;
+      result.rest.add(sample);
     }
+    if (count < Film::chunk) break;
+    whole.add(result.rest);
+    result.rest = {};
+    result.whole_rejected = result.rejected;
+    if (job.options.stop && job.options.stop()) throw Interrupted{};
   }
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
+#include "renderer/intersect/ellipsoid_fit.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/plugin/build_surface.h"
 #include "renderer/scene/show.h"
@@ -70,11 +71,14 @@ int read_material_name(Params& params, const char* key, int otherwise,
   params.fail(*value, unknown_name("material", name, names));
 }
 
+// "auto" and those that only some patches allow become what the surface allows.
 Solver solver_named(const std::string& name, const Surface& surface) {
   if (name == "clipping") return Solver::clipping;
-  const bool radial =
-      name == "radial" && std::any_of(surface.patches.begin(), surface.patches.end(), has_radial_form);
-  return radial ? Solver::radial : Solver::newton;
+  const auto is = [&](const char* solver) { return name == solver || name == "auto"; };
+  if (is("radial") && std::any_of(surface.patches.begin(), surface.patches.end(), has_radial_form))
+    return Solver::radial;
+  if (is("quadric") && !fit_ellipsoids(surface.patches).empty()) return Solver::quadric;
+  return Solver::newton;
 }
 
 }  // namespace
@@ -107,7 +111,8 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
   placement.radius = params.number("radius", placement.radius, Range::positive());
   placement.transform = read_transform(params);
   object.material = read_material_name(params, "material", default_material, materials);
-  const std::string solver = params.choice("solver", {"newton", "clipping", "radial"}, "radial");
+  const std::string solver =
+      params.choice("solver", {"auto", "newton", "clipping", "radial", "quadric"}, "auto");
   if (params.raw("normals")) object.normals = read_estimator(params, "normals");
   object.traced.surface = build_surface(family, params);
   const Show show = read_show(params, object.traced.surface);

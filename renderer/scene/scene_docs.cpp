@@ -64,10 +64,11 @@ const std::vector<TypeDoc>& scene_docs() {
         {"wire_material", "string", "dark, or light on a dark surface",
          "a name under \"materials\"; wires alone have the object's \"material\" unless this is given"},
         {"isolines", "integer in [1, 100]", "8", "for \"show\": strips between lines, in each parameter"},
-        {"solver", "\"newton\", \"clipping\" or \"radial\"", "\"radial\"",
+        {"solver", "\"auto\", \"newton\", \"clipping\", \"radial\" or \"quadric\"", "\"auto\"",
          "how rays find the surface: \"radial\" solves one polynomial for the whole ray, on inverse "
-         "spherical "
-         "patches with a planar projection domain; other patches are then met as by \"newton\""},
+         "spherical patches with a planar projection domain; \"quadric\" meets patches that lie on a sphere "
+         "or ellipsoid in closed form; other patches are then met as by \"newton\", and \"auto\" takes "
+         "whichever the surface allows"},
         {"normals",
          "\"limit\", \"cross\", \"cross_float\", \"taylor\", \"shift\", \"hodograph\" or \"analytic\"",
          "the scene's",

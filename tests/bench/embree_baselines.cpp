@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -22,24 +23,27 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {-1.001f, -1.001f, -1.001f, 0.0f, 1.001f, 1.001f, 1.001f, 0.0f};
 }
 
-// The double-precision quadratic, from the float ray that Embree hands over.
+// The double-precision quadratic, from the float ray that Embree hands over; lane by lane in packets.
 void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
-  const dvec3 o(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
-  const dvec3 d(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
-  const double dd = glm::dot(d, d), middle = -glm::dot(o, d) / dd;
-  const dvec3 nearest = o + middle * d;
-  const double rest = 1.0 - glm::dot(nearest, nearest);
-  if (rest < 0.0) return;
-  const double half = std::sqrt(rest / dd);
-  double t = middle - half;
-  if (t < RTCRayN_tnear(ray, 1, 0)) t = middle + half;
-  if (t < RTCRayN_tnear(ray, 1, 0) || t > RTCRayN_tfar(ray, 1, 0)) return;
-  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
-  RTCRayN_tfar(ray, 1, 0) = static_cast<float>(t);
-  RTCHitN_geomID(hit, 1, 0) = args->geomID;
-  RTCHitN_primID(hit, 1, 0) = args->primID;
+  const unsigned n = args->N;
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, n);
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, n);
+  for (unsigned k = 0; k < n; ++k) {
+    if (args->valid[k] == 0) continue;
+    const dvec3 o(RTCRayN_org_x(ray, n, k), RTCRayN_org_y(ray, n, k), RTCRayN_org_z(ray, n, k));
+    const dvec3 d(RTCRayN_dir_x(ray, n, k), RTCRayN_dir_y(ray, n, k), RTCRayN_dir_z(ray, n, k));
+    const double dd = glm::dot(d, d), middle = -glm::dot(o, d) / dd;
+    const dvec3 nearest = o + middle * d;
+    const double rest = 1.0 - glm::dot(nearest, nearest);
+    if (rest < 0.0) continue;
+    const double half = std::sqrt(rest / dd);
+    double t = middle - half;
+    if (t < RTCRayN_tnear(ray, n, k)) t = middle + half;
+    if (t < RTCRayN_tnear(ray, n, k) || t > RTCRayN_tfar(ray, n, k)) continue;
+    RTCRayN_tfar(ray, n, k) = static_cast<float>(t);
+    RTCHitN_geomID(hit, n, k) = args->geomID;
+    RTCHitN_primID(hit, n, k) = args->primID;
+  }
 }
 
 void add_mesh(RTCGeometry geometry, std::size_t triangles) {
@@ -131,6 +135,37 @@ std::size_t EmbreeBaseline::trace(const std::vector<Ray>& rays, double* worst_er
       *worst_error =
           std::fmax(*worst_error, std::fabs(glm::length(o + static_cast<double>(q.ray.tfar) * d) - 1.0));
     }
+  }
+  return hits;
+}
+
+std::size_t EmbreeBaseline::trace_packets(const std::vector<Ray>& rays) const {
+  constexpr std::size_t width = 16;
+  if (!rtcGetDeviceProperty(implementation_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return 0;
+  std::size_t hits = 0;
+  alignas(64) RTCRayHit16 q;
+  alignas(64) int valid[width];
+  for (std::size_t first = 0; first < rays.size(); first += width) {
+    for (std::size_t k = 0; k < width; ++k) {
+      const Ray& r = rays[std::min(first + k, rays.size() - 1)];
+      valid[k] = first + k < rays.size() ? -1 : 0;
+      q.ray.org_x[k] = static_cast<float>(r.origin.x), q.ray.org_y[k] = static_cast<float>(r.origin.y),
+      q.ray.org_z[k] = static_cast<float>(r.origin.z);
+      q.ray.dir_x[k] = static_cast<float>(r.direction.x), q.ray.dir_y[k] = static_cast<float>(r.direction.y),
+      q.ray.dir_z[k] = static_cast<float>(r.direction.z);
+      q.ray.tnear[k] = 0.0f, q.ray.tfar[k] = INFINITY, q.ray.time[k] = 0.0f, q.ray.mask[k] = ~0u,
+      q.ray.id[k] = 0, q.ray.flags[k] = 0;
+      q.hit.geomID[k] = q.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect16(valid, implementation_->scene, &q);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect16(valid, implementation_->scene, &context, &q);
+#endif
+    for (std::size_t k = 0; k < width; ++k)
+      hits += valid[k] != 0 && q.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
   }
   return hits;
 }

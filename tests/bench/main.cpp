@@ -1,65 +1,123 @@
-// One run, one table: rays per second on one thread, as ratios to Embree's own sphere measured in the same
-// rounds; Newton steps, memory and build times. Usage: rondure_bench [ROUNDS]
+// Speed against what people settle for, in one table: every row takes its turn in every round, and is told as
+// a ratio to Embree's own sphere in the same round. Then Newton steps, radial forms, and how fast scenes are
+// built.
+//
+//   rondure_bench [ROUNDS] [--json FILE]
+//   rondure_bench --count ROW        traces that row's incoherent rays once, for
+//   tests/bench/count_instructions
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <functional>
-#include <string>
+#include <cstring>
+#include <memory>
 
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/bench/embree_baselines.h"
 #include "tests/bench/radial.h"
 #include "tests/bench/ray_sets.h"
+#include "tests/bench/rows.h"
 #include "tests/bench/scale.h"
+#include "tests/bench/stopwatch.h"
 #include "tests/surfaces/build_family.h"
 
-using namespace rondure;
-using namespace rondure::bench;
+namespace rondure::bench {
+
+// Named so that an instruction counter can find it.
+[[gnu::noinline]] std::size_t counted_rays(const Row& row, const std::vector<Ray>& rays) {
+  return row.trace(rays);
+}
 
 namespace {
 
-double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+using TracerPointer = std::shared_ptr<const Tracer>;
+
+TracerPointer tracer_of(Surface surface, Solver solver) {
+  std::vector<TracedSurface> surfaces;
+  surfaces.push_back({std::move(surface), solver});
+  return std::make_shared<const Tracer>(std::move(surfaces));
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+std::size_t trace_spans(const Tracer& tracer, const std::vector<Ray>& rays, std::size_t width) {
+  std::size_t hits = 0;
+  Hit packet[16];
+  for (std::size_t first = 0; first < rays.size(); first += width) {
+    const std::size_t count = std::min(width, rays.size() - first);
+    tracer.closest(std::span(rays).subspan(first, count), std::span(packet, count));
+    for (std::size_t k = 0; k < count; ++k) hits += static_cast<bool>(packet[k]);
+  }
+  return hits;
 }
 
-struct Contender {
-  std::string name;
-  std::function<std::size_t(const std::vector<Ray>&)> trace;
-  std::size_t bytes;
-  double worst_error;
-  std::vector<double> ratio[2] = {}, rate[2] = {};  // by ray set; to the first contender of the same round
-};
+Row row_of(const std::string& name, TracerPointer tracer, int width, std::size_t part = 1) {
+  Row row{name, width, {}, 0.0, tracer->statistics().bytes, part};
+  for (const Ray& ray : incoherent_rays(20'000))
+    if (const Hit hit = tracer->closest(ray))
+      row.error = std::max(row.error, std::fabs(glm::length(hit.point) - 1.0));
+  if (width > 1)
+    row.trace = [tracer, width](const std::vector<Ray>& rays) {
+      return trace_spans(*tracer, rays, static_cast<std::size_t>(width));
+    };
+  else
+    row.trace = [tracer](const std::vector<Ray>& rays) {
+      std::size_t hits = 0;
+      for (const Ray& ray : rays) hits += static_cast<bool>(tracer->closest(ray));
+      return hits;
+    };
+  return row;
+}
 
-Contender patch_contender(const std::string& name, const Tracer& tracer, const std::vector<Ray>& rays) {
-  double worst = 0.0;
-  for (const Ray& ray : rays)
-    if (const Hit hit = tracer.closest(ray))
-      worst = std::fmax(worst, std::fabs(glm::length(hit.point) - 1.0));
-  const auto trace = [&tracer](const std::vector<Ray>& set) {
+Row occlusion_row(const std::string& name, TracerPointer tracer) {
+  Row row{name, 1, {}, 0.0, tracer->statistics().bytes};
+  row.trace = [tracer](const std::vector<Ray>& rays) {
     std::size_t hits = 0;
-    for (const Ray& ray : set) hits += static_cast<bool>(tracer.closest(ray));
+    for (const Ray& ray : rays) hits += tracer->occluded(ray);
     return hits;
   };
-  return {name, trace, tracer.statistics().bytes, worst};
+  return row;
 }
 
-Contender baseline_contender(const std::string& name, const EmbreeBaseline& baseline,
-                             const std::vector<Ray>& rays) {
-  double worst = 0.0;
-  baseline.trace(rays, &worst);
-  return {name, [&baseline](const std::vector<Ray>& set) { return baseline.trace(set); }, baseline.bytes(),
-          worst};
+void add_baseline(std::vector<Row>& rows, const std::string& name, EmbreeBaseline::Kind kind,
+                  std::size_t triangles = 0) {
+  const auto baseline = std::make_shared<const EmbreeBaseline>(kind, triangles);
+  Row row{name, 1, [baseline](const std::vector<Ray>& rays) { return baseline->trace(rays); }, 0.0,
+          baseline->bytes()};
+  baseline->trace(incoherent_rays(20'000), &row.error);
+  rows.push_back(row);
+  row.width = 16;
+  row.trace = [baseline](const std::vector<Ray>& rays) { return baseline->trace_packets(rays); };
+  rows.push_back(row);
+}
+
+struct Shapes {
+  Surface sphere = build_family(R"({"type": "sphere"})");
+  Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  Surface hemispheres = build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})");
+  Surface octants = build_family(R"({"type": "sphere_octant"})");
+  Surface kites = build_family(R"({"type": "sphere_tiling", "topology": "icosahedron_quads"})");
+};
+
+std::vector<Row> rondure_rows(const Shapes& shapes) {
+  std::vector<Row> rows;
+  const TracerPointer sphere = tracer_of(shapes.sphere, Solver::newton);
+  rows.push_back(row_of("sphere", sphere, 1));
+  rows.push_back(row_of("sphere", sphere, 16));
+  const TracerPointer cube = tracer_of(shapes.cube, Solver::quadric);
+  for (const int width : {1, 4, 8, 16}) rows.push_back(row_of("cube, quadric", cube, width));
+  rows.push_back(occlusion_row("cube, quadric, occluded", cube));
+  const std::pair<const char*, const Surface*> others[] = {
+      {"hemispheres", &shapes.hemispheres}, {"octants", &shapes.octants}, {"60 kites", &shapes.kites}};
+  for (const auto& [name, surface] : others) {
+    const TracerPointer quadric = tracer_of(*surface, Solver::quadric);
+    for (const int width : {1, 16}) rows.push_back(row_of(std::string(name) + ", quadric", quadric, width));
+  }
+  const TracerPointer newton = tracer_of(shapes.cube, Solver::newton);
+  for (const int width : {1, 16}) rows.push_back(row_of("cube, newton", newton, width, 4));
+  rows.push_back(row_of("hemispheres, newton", tracer_of(shapes.hemispheres, Solver::newton), 1, 4));
+  rows.push_back(row_of("octants, newton", tracer_of(shapes.octants, Solver::newton), 1, 4));
+  rows.push_back(row_of("cube, clipping", tracer_of(shapes.cube, Solver::clipping), 1, 8));
+  return rows;
 }
 
 void print_counts(const char* name, const Tracer& tracer, const std::vector<Ray>& rays) {
@@ -74,55 +132,61 @@ void print_counts(const char* name, const Tracer& tracer, const std::vector<Ray>
       static_cast<double>(counts.newton.undecided) / n, static_cast<double>(counts.search.cells) / n);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 7;
-  const std::vector<Ray> sets[2] = {coherent_rays(400), incoherent_rays(160'000)};
-  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
-  const Surface hemispheres = build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})");
-  const Surface octants = build_family(R"({"type": "sphere_octant"})");
-  const EmbreeBaseline point(EmbreeBaseline::Kind::sphere_point), user(EmbreeBaseline::Kind::user_sphere),
-      mesh(EmbreeBaseline::Kind::triangle_mesh, 4'000'000);
-  const Tracer analytic({{build_family(R"({"type": "sphere"})"), Solver::newton}});
-  const Tracer cube_newton({{cube, Solver::newton}}), cube_clipping({{cube, Solver::clipping}});
-  const Tracer hemispheres_newton({{hemispheres, Solver::newton}}),
-      octants_newton({{octants, Solver::newton}});
-
-  std::vector<Contender> contenders;
-  contenders.push_back(baseline_contender("Embree SPHERE_POINT", point, sets[1]));
-  contenders.push_back(baseline_contender("Embree user sphere", user, sets[1]));
-  contenders.push_back(baseline_contender("Embree mesh, 4M", mesh, sets[1]));
-  contenders.push_back(patch_contender("analytic sphere", analytic, sets[1]));
-  contenders.push_back(patch_contender("cube, newton", cube_newton, sets[1]));
-  contenders.push_back(patch_contender("hemispheres, newton", hemispheres_newton, sets[1]));
-  contenders.push_back(patch_contender("octants, newton", octants_newton, sets[1]));
-  contenders.push_back(patch_contender("cube, clipping", cube_clipping, sets[1]));
-
-  std::size_t sink = 0;
-  for (int round = 0; round < rounds; ++round)
-    for (int set = 0; set < 2; ++set)
-      for (Contender& c : contenders) {
-        const double time = seconds([&] { sink += c.trace(sets[set]); });
-        c.rate[set].push_back(static_cast<double>(sets[set].size()) / time * 1e-6);
-        c.ratio[set].push_back(c.rate[set].back() / contenders[0].rate[set].back());
-      }
-
-  fmt::print("single rays, one thread, {} rounds ({} hits)\n", rounds, sink);
-  fmt::print("  {:<24} {:>10} {:>10} {:>12} {:>12} {:>12} {:>12}\n", "", "coherent", "incoherent",
-             "Mray/s coh.", "Mray/s inc.", "worst error", "memory");
-  for (const Contender& c : contenders)
-    fmt::print("  {:<24} {:>9.3f}x {:>9.3f}x {:>12.2f} {:>12.2f} {:>12.1e} {:>9.2f} MB\n", c.name,
-               median(c.ratio[0]), median(c.ratio[1]), median(c.rate[0]), median(c.rate[1]), c.worst_error,
-               static_cast<double>(c.bytes) * 1e-6);
+void print_steps(const Shapes& shapes) {
+  const std::vector<Ray> rays = incoherent_rays(40'000);
   fmt::print("\nper incoherent ray           leaves    steps  steps/it.   undecided    cells\n");
-  print_counts("cube, newton", cube_newton, sets[1]);
-  print_counts("hemispheres, newton", hemispheres_newton, sets[1]);
-  print_counts("octants, newton", octants_newton, sets[1]);
-  print_counts("cube, clipping", cube_clipping, sets[1]);
+  print_counts("cube, newton", *tracer_of(shapes.cube, Solver::newton), rays);
+  print_counts("hemispheres, newton", *tracer_of(shapes.hemispheres, Solver::newton), rays);
+  print_counts("octants, newton", *tracer_of(shapes.octants, Solver::newton), rays);
+  print_counts("cube, clipping", *tracer_of(shapes.cube, Solver::clipping), rays);
+  print_counts("octants, quadric", *tracer_of(shapes.octants, Solver::quadric), rays);
+}
 
+int count(const std::string& name) {
+  const Shapes shapes;
+  for (const Row& row : rondure_rows(shapes)) {
+    if (fmt::format("{}/{}", row.name, row.width) != name) continue;
+    const std::vector<Ray> rays = incoherent_rays(2000);
+    const std::size_t hits = counted_rays(row, rays);
+    fmt::print("{} rays, {} hits\n", rays.size(), hits);
+    return 0;
+  }
+  fmt::print(stderr, "no row {}\n", name);
+  return 1;
+}
+
+int run(int argc, char** argv) {
+  int rounds = 7;
+  std::string json;
+  for (int k = 1; k < argc; ++k) {
+    if (std::strcmp(argv[k], "--count") == 0 && k + 1 < argc) return count(argv[k + 1]);
+    if (std::strcmp(argv[k], "--json") == 0 && k + 1 < argc)
+      json = argv[++k];
+    else
+      rounds = std::max(1, std::atoi(argv[k]));
+  }
+  const Shapes shapes;
+  const References references{"Embree SPHERE_POINT", "Embree SPHERE_POINT"};
+  std::vector<Row> rows;
+  add_baseline(rows, references.single, EmbreeBaseline::Kind::sphere_point);
+  add_baseline(rows, "Embree user sphere", EmbreeBaseline::Kind::user_sphere);
+  for (const auto& [name, faces] : {std::pair{"Embree mesh, 10^4", 10'000},
+                                    {"Embree mesh, 10^5", 100'000},
+                                    {"Embree mesh, 10^6", 1'000'000},
+                                    {"Embree mesh, 4 10^6", 4'000'000}})
+    add_baseline(rows, name, EmbreeBaseline::Kind::triangle_mesh, static_cast<std::size_t>(faces));
+  for (std::vector<Row>& more : std::vector<std::vector<Row>>{rondure_rows(shapes), cad_rows()})
+    for (Row& row : more) rows.push_back(std::move(row));
+  measure(rows, references, rounds);
+  print_rows(rows);
+  if (!json.empty()) write_json(rows, json);
+  print_steps(shapes);
   print_radial(rounds);
-
   print_scale(rounds);
   return 0;
 }
+
+}  // namespace
+}  // namespace rondure::bench
+
+int main(int argc, char** argv) { return rondure::bench::run(argc, argv); }

@@ -3,20 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/bench/ray_sets.h"
+#include "tests/bench/stopwatch.h"
 #include "tests/surfaces/build_family.h"
 
 namespace rondure::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // To about the size of the unit sphere, at which the rays are aimed.
 Surface at_unit_size(Surface surface) {
@@ -30,10 +25,10 @@ Surface at_unit_size(Surface surface) {
 }
 
 double nanoseconds(const Tracer& tracer, const std::vector<Ray>& rays, std::size_t& hits) {
-  const auto start = std::chrono::steady_clock::now();
-  for (const Ray& ray : rays) hits += static_cast<bool>(tracer.closest(ray));
-  const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-  return time.count() / static_cast<double>(rays.size());
+  const double time = seconds([&] {
+    for (const Ray& ray : rays) hits += static_cast<bool>(tracer.closest(ray));
+  });
+  return 1e9 * time / static_cast<double>(rays.size());
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
        "scene.json: integrator: unknown integrator \"paht\"; did you mean \"path\"? (set on the command "
        "line)"},
       {{"info", "scene.json", "--solver", "bisection"},
-       "scene.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", found "
+       "scene.json: objects[0]: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", \"radial\", "
+       "\"quadric\", found "
        "\"bisection\" (set "
        "on the "
        "command line)"},
@@ -127,7 +128,8 @@ TEST_CASE("options of the scene may stand anywhere and more than once", "[comman
   CHECK(says({"validate", "s.json", "--solver", "clipping", "--set", "/objects/0/type=sphere_octant", "--set",
               "/objects/0/radius=2"}) == valid);
   CHECK(says({"validate", "s.json", "--solver", "fast"}) ==
-        "rondure: error: s.json: objects[0]: \"solver\" must be one of \"newton\", \"clipping\", \"radial\", "
+        "rondure: error: s.json: objects[0]: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", "
+        "\"radial\", \"quadric\", "
         "found "
         "\"fast\" (set on "
         "the command line)\n");

@@ -49,14 +49,17 @@ TEST_CASE("the file's header names what found the hits", "[commands]") {
   const std::pair<std::string, std::string> table[] = {
       {R"({ "type": "sphere" })", "closed form"},
       {R"({ "type": "sphere", "solver": "clipping" })", "closed form"},
-      {R"({ "type": "sphere_octant" })", "newton"},
+      {R"({ "type": "sphere_octant" })", "quadric"},
+      {R"({ "type": "sphere_octant", "solver": "newton" })", "newton"},
+      {R"({ "type": "sphere_octant", "solver": "quadric" })", "quadric"},
+      {R"({ "type": "iss", "solver": "quadric" })", "newton"},
       {R"({ "type": "sphere_octant", "solver": "clipping" })", "clipping"},
       {R"({ "type": "sphere_octant", "solver": "radial" })", "newton"},
       {R"({ "type": "iss" })", "radial"},
       {R"({ "type": "iss", "solver": "newton" })", "newton"},
       {R"({ "type": "iss", "form": "degenerate" })", "newton"},
-      {R"({ "type": "sphere_octant" }, { "type": "sphere" }, { "type": "sphere_cap" })",
-       "closed form, newton"},
+      {R"({ "type": "sphere_octant" }, { "type": "sphere" }, { "type": "sphere_cap", "solver": "newton" })",
+       "closed form, newton, quadric"},
   };
   const std::string folder = fresh_folder("render_solver");
   for (const auto& [objects, solver] : table) {

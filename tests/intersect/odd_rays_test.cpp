@@ -17,7 +17,8 @@ constexpr double inf = std::numeric_limits<double>::infinity(),
 }
 
 TEST_CASE("Rays that are not finite or have no direction hit nothing", "[hits]") {
-  const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton}});
+  const Solver solver = GENERATE(Solver::newton, Solver::quadric);
+  const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), solver}});
   const dvec3 good(0.0, 0.0, -3.0), along(0.0, 0.0, 1.0);
   for (const double bad : {no_number, inf, -inf}) {
     for (int k = 0; k < 3; ++k) {
@@ -38,8 +39,8 @@ TEST_CASE("Rays that are not finite or have no direction hit nothing", "[hits]")
 }
 
 TEST_CASE("The length of the direction changes t alone", "[hits]") {
-  const Tracer tracer(
-      {{build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), Solver::newton}});
+  const Solver solver = GENERATE(Solver::newton, Solver::quadric);
+  const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), solver}});
   // Few bits, which the smallest scale leaves whole.
   const dvec3 origin(0.1, 0.2, -3.0), direction(0x1p-7, -0x1p-6, 1.0);
   const Hit unit = tracer.closest({origin, direction});
@@ -55,7 +56,8 @@ TEST_CASE("The length of the direction changes t alone", "[hits]") {
 }
 
 TEST_CASE("t_min and t_max bound the hits", "[hits]") {
-  const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton}});
+  const Solver solver = GENERATE(Solver::newton, Solver::quadric);
+  const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), solver}});
   const dvec3 origin(0.1, 0.2, -3.0), direction(0.0, 0.0, 1.0);
   const std::vector<Hit> both = tracer.all({origin, direction});
   REQUIRE(both.size() == 2);
@@ -77,7 +79,7 @@ TEST_CASE("A ray that skims a singular corner has its other hit too", "[hits]") 
   const Ray ray{dvec3(-0.32192691661406703, -1.0000594248483352, -3.4976197832938865),
                 dvec3(0.20473146426954064, 3.7791609169008833e-05, 2.2243334829635089)};
   const SphereReference exact = sphere_reference(ray.origin, ray.direction, dvec3(0.0), 1.0);
-  for (const Solver solver : {Solver::newton, Solver::clipping}) {
+  for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
     const Tracer tracer({{build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})"), solver}});
     const std::vector<Hit> hits = tracer.all(ray);
     REQUIRE(hits.size() == 2);

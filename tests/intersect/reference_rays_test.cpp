@@ -87,7 +87,8 @@ TEST_CASE("The reference's ray cases come out as they should", "[hits]") {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/tests/data/rays")) {
     ++files;
-    for (const Solver solver : {Solver::newton, Solver::clipping}) check_file(entry.path(), solver, totals);
+    for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric})
+      check_file(entry.path(), solver, totals);
   }
   INFO(files << " files, " << totals.rays << " rays, " << totals.hits << " hits, " << totals.ambiguous
              << " decided by rounding");

@@ -28,14 +28,21 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
   std::mt19937_64 random(17);
   long hits = 0, self_hits = 0, escapes = 0, short_chords = 0;
   std::string worst = "none";
-  for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})",
-                             R"({"type": "sphere_tiling", "topology": "hemispheres"})",
-                             R"({"type": "sphere_octant"})", R"({"type": "sphere"})"})
+  const char* const cube = R"({"type": "sphere_tiling", "topology": "cube"})";
+  const char* const hemispheres = R"({"type": "sphere_tiling", "topology": "hemispheres"})";
+  const char* const octants = R"({"type": "sphere_octant"})";
+  for (const auto& [family, solver] : {std::pair{cube, Solver::newton},
+                                       {hemispheres, Solver::newton},
+                                       {octants, Solver::newton},
+                                       {cube, Solver::quadric},
+                                       {hemispheres, Solver::quadric},
+                                       {octants, Solver::quadric},
+                                       {R"({"type": "sphere"})", Solver::newton}})
     for (const double radius : {1e-4, 1.0, 1e4})
       for (const double distance : {1e-8, 1.0, 1e8}) {
         // The surface stands `distance` radii from the origin, and the rays come from as far again.
         const dvec3 center = radius * distance * glm::normalize(dvec3(1.0, 2.0, -3.0));
-        const Tracer tracer({{placed(build_family(family), radius, center), Solver::newton}});
+        const Tracer tracer({{placed(build_family(family), radius, center), solver}});
         for (int k = 0; k < 1500; ++k) {
           const dvec3 origin = center + radius * (1.5 + distance) * random_direction(random);
           const double depth = std::uniform_real_distribution<double>(0.0, 1.0)(random);

@@ -292,6 +292,19 @@ TEST_CASE("Clipping alone finds the same", "[hits]") {
                   std::string("clipping, ") + name);
 }
 
+TEST_CASE("The quadric solver finds the same", "[hits]") {
+  for (const auto& [name, surface] : closed_families()) {
+    Tally tally = check_case({name, surface, Solver::quadric, 1.0, dvec3(0.0)}, load(600'000, 72'000));
+    for (const double radius : {1e-4, 0.37, 1e4})
+      for (const dvec3& center : {dvec3(0.0), radius * dvec3(3.1, -2.7, 10.3)})
+        tally.merge(check_case({name, placed(surface, radius, center), Solver::quadric, radius, center},
+                               load(60'000, 24'000)));
+    require_clean(tally, std::string("quadric, ") + name);
+    // Half of what the others are allowed.
+    CHECK(tally.position.error() <= 4.0 * ulp);
+  }
+}
+
 TEST_CASE("Every other tiling is met as these are", "[hits]") {
   const char* const parameters[] = {R"("topology": "cube_2_4")",
                                     R"("topology": "icosahedron_pairs")",
@@ -303,7 +316,7 @@ TEST_CASE("Every other tiling is met as these are", "[hits]") {
                                     R"("topology": "icosahedron_quads")",
                                     R"("topology": "rhombicuboctahedron", "reading": 42)",
                                     R"("topology": "rhombicuboctahedron", "corner_weights": "unit")"};
-  Tally newton, clipping;
+  Tally newton, clipping, quadric;
   for (const char* which : parameters) {
     const Surface surface = build_family(fmt::format(R"({{"type": "sphere_tiling", {}}})", which));
     const dvec3 center = 0.37 * dvec3(3.1, -2.7, 10.3);
@@ -311,9 +324,13 @@ TEST_CASE("Every other tiling is met as these are", "[hits]") {
     newton.merge(
         check_case({which, placed(surface, 0.37, center), Solver::newton, 0.37, center}, load(2'000, 4'000)));
     clipping.merge(check_case({which, surface, Solver::clipping, 1.0, dvec3(0.0)}, load(2'000, 4'000)));
+    quadric.merge(check_case({which, surface, Solver::quadric, 1.0, dvec3(0.0)}, load(16'000, 20'000)));
+    quadric.merge(check_case({which, placed(surface, 0.37, center), Solver::quadric, 0.37, center},
+                             load(2'000, 4'000)));
   }
   require_clean(newton, "newton, other tilings");
   require_clean(clipping, "clipping, other tilings");
+  require_clean(quadric, "quadric, other tilings");
 }
 
 TEST_CASE("The analytic sphere passes the same test", "[hits]") {

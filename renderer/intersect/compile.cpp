@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "renderer/intersect/query.h"
+
+namespace rondure {
+
+// Quarterings of a patch with a radial form: their boxes let enough rays by; more cost more than they save.
+constexpr int radial_depth = 2;
+
+namespace {
+
+// Of the part of the ellipsoid that is there: within the nets, and within the ellipsoid's own box.
+Box box_of(const PatchedSphere& sphere, const std::vector<Net>& nets) {
+  Box hull;
+  for (const SpherePatch& patch : sphere.patches.patches)
+    for (const dvec4& p : points_of(nets[static_cast<std::size_t>(patch.patch)])) hull.add(dvec3(p) / p.w);
+  const dmat3 rows = glm::transpose(sphere.ellipsoid.linear);
+  const dvec3 half = (1.0 + 1e-12) * dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+  return {glm::max(hull.low, sphere.center - half), glm::min(hull.high, sphere.center + half)};
+}
+
+}  // namespace
+
+CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_side) {
+  const Surface& surface = traced.surface;
+  CompiledSurface compiled;
+  compiled.nets = &surface.patches;
+  compiled.solver = traced.solver;
+  if (surface.ellipsoid) {
+    compiled.ellipsoid.emplace(*surface.ellipsoid);
+    const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
+    const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+    compiled.set.boxes = {Box{-half, half}};
+  } else {
+    std::vector<bool> rest(surface.patches.size(), true), radial(surface.patches.size(), false);
+    if (traced.solver == Solver::quadric)
+      compiled.spheres = patched_spheres(surface.patches, cells_a_side, rest);
+    std::vector<bool> without(surface.patches.size());
+    for (std::size_t k = 0; k < surface.patches.size(); ++k) {
+      radial[k] = traced.solver == Solver::radial && has_radial_form(surface.patches[k]);
+      without[k] = radial[k] || !rest[k];
+    }
+    compiled.set = build_leaves(surface.patches, max_depth, without);
+    for (std::size_t k = 0; k < radial.size(); ++k)
+      if (radial[k])
+        add_radial_leaves(surface.patches[k], static_cast<int>(k), std::min(radial_depth, max_depth / 2),
+                          compiled.set, compiled.radial);
+    for (const PatchedSphere& sphere : compiled.spheres)
+      compiled.set.boxes.push_back(box_of(sphere, surface.patches));
+  }
+  for (const Box& box : compiled.set.boxes) compiled.bounds.add(box);
+  return compiled;
+}
+
+std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled) {
+  if (compiled.set.boxes.size() < 2) return nullptr;
+  const dvec3 center = compiled.bounds.center();
+  std::vector<Box> boxes;
+  std::vector<LeafName> names;
+  for (const Box& box : compiled.set.boxes) {
+    names.push_back({0, static_cast<unsigned>(boxes.size())});
+    boxes.push_back({box.low - center, box.high - center});
+  }
+  return std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit_shared_leaf);
+}
+
+}  // namespace rondure

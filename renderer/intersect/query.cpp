@@ -1,0 +1,238 @@
+#include "renderer/intersect/query.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "renderer/bezier/normal.h"
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/crossing.h"
+#include "renderer/intersect/slab.h"
+#include "renderer/intersect/solve_leaf.h"
+#include "renderer/intersect/surface_crossing.h"
+
+namespace rondure {
+namespace {
+
+constexpr std::size_t cells_per_query = 1 << 15;
+
+enum class Taken { no, noted, nearest, settled };
+
+// Takes one crossing into the query; `normal()` is the unit normal there, asked for when every hit counts.
+// `nearest`: it is the best so far, and its normal still to come. `settled`: an occlusion query is answered.
+template <class Normal>
+Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
+           const Crossing& c, float& far) {
+  Hit hit;
+  const dvec3& frame = q.origins[surface];
+  if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return Taken::no;
+  if (q.mode == Mode::any) return Taken::settled;
+  hit.t_error = c.s_error * q.local.scale;
+  hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
+  if (q.mode == Mode::all) {
+    hit.point = frame + point, hit.normal = normal();
+    q.hits->push_back(hit);
+    q.signs->push_back(c.sign);
+    return Taken::noted;
+  }
+  if (q.best && !nearer(hit, q.best)) return Taken::noted;
+  hit.point = frame + point;
+  q.best = hit;
+  far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
+  return Taken::nearest;
+}
+
+// The same for a root on a leaf, `s` being the patch there. True when an occlusion query is answered.
+bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, const Root& root,
+               const FirstOrder<dvec4>& s, float& far) {
+  dvec3 point;
+  const Crossing c = cross_surface(leaf, net, q.local, root, s, point);
+  const auto normal = [&] { return unit_normal(net, root.u, root.v, s); };
+  const Taken taken = take(q, surface, leaf.patch, {root.u, root.v}, point, normal, c, far);
+  if (taken == Taken::nearest) q.best_first = s, q.needs_normal = true;
+  return taken == Taken::settled;
+}
+
+bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, float& far) {
+  EllipsoidHit hits[2];
+  const int count = intersect_ellipsoid(ellipsoid, q.local, hits);
+  for (int k = 0; k < count; ++k) {
+    const double error = ellipsoid_error(ellipsoid);
+    const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, ellipsoid.extent, false);
+    const auto normal = [&] { return hits[k].normal; };
+    const Taken taken = take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far);
+    if (taken == Taken::settled) return true;
+    if (taken == Taken::nearest) q.best.normal = hits[k].normal, q.needs_normal = false;
+  }
+  return false;
+}
+
+// The two roots, entering first. The parameters are asked for only where a hit is the closest so far.
+bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float& far) {
+  SphereRoots roots;
+  if (!meet_sphere(sphere, q.local, roots)) return false;
+  const dvec3& frame = q.origins[surface];
+  const std::vector<Net>& nets = *q.compiled[surface]->nets;
+  const Ellipsoid& e = sphere.ellipsoid;
+  const double error = ellipsoid_error(e), grazing = std::sqrt(2.0 * error * e.extent);
+  for (const int side : {-1, 1}) {
+    const dvec3 n = sphere_point(roots, side);
+    // make_crossing's bound: error / cosine along the ray, and length times cosine is |n . d| / |normal|.
+    const double normal_length =
+        sphere.inverse_radius > 0.0 ? sphere.inverse_radius : glm::length(n * e.inverse);
+    Crossing c;
+    c.s = roots.middle + side * roots.half;
+    c.s_error = 2.0 * std::min(error * normal_length * roots.inverse_length2 / roots.half, grazing) +
+                0x1p-52 * std::fabs(q.local.slide + c.s);
+    c.extent = e.extent;
+    const int leaving = roots.half > 0.0 ? side : 0;
+    c.sign = sphere.outward < 0.0 ? -leaving : leaving;
+    Hit hit;
+    std::optional<PlaceOnSphere> place;
+    // Which way the ray crosses has to be known where it starts on the surface.
+    if (sphere.outward == 0.0 && q.ray->start.surface == static_cast<int>(surface)) {
+      place = place_on_sphere(sphere, nets, n);
+      if (!place) continue;
+      c.sign = place->outward < 0.0 ? -leaving : leaving;
+    }
+    if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) continue;
+    if (q.mode == Mode::any) {
+      if (place || covers(sphere, nets, n)) return true;
+      continue;
+    }
+    if (q.mode == Mode::closest && q.best && hit.t > q.best.t) return false;
+    if (!place) place = place_on_sphere(sphere, nets, n);
+    if (!place) continue;
+    hit.t_error = c.s_error * q.local.scale;
+    hit.surface = static_cast<int>(surface), hit.patch = place->patch;
+    hit.u = place->u, hit.v = place->v;
+    hit.point = frame + (sphere.center + (sphere.inverse_radius > 0.0 ? e.uniform_radius * n : e.linear * n));
+    hit.normal = sphere.inverse_radius > 0.0 ? n : glm::normalize(n * e.inverse);
+    if (place->outward < 0.0) hit.normal = -hit.normal;
+    c.sign = place->outward < 0.0 ? -leaving : leaving;
+    if (q.mode == Mode::all) {
+      q.hits->push_back(hit);
+      q.signs->push_back(c.sign);
+      continue;
+    }
+    if (!q.best || nearer(hit, q.best)) {
+      q.best = hit, q.needs_normal = false;
+      far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
+    }
+    return false;
+  }
+  return false;
+}
+
+bool localise(Query& q, unsigned surface) {
+  if (q.local_surface != surface) {
+    q.local_surface = surface;
+    q.local_valid = set_base(q.ray->origin, q.origins[surface], q.local);
+    q.has_distances = false;
+  }
+  return q.local_valid;
+}
+
+// A surface that shares its leaves with others, in its own frame.
+bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
+  if (!localise(q, surface)) return false;
+  const Hierarchy& hierarchy = *q.compiled[surface]->hierarchy;
+  const Entry outer = q.entry;
+  const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max;
+  if (!hierarchy.enter(q.local, q.ray->t_min, t_max, q.entry)) return false;
+  q.instance = surface;
+  bool settled = false;
+  if (q.mode == Mode::any)
+    settled = hierarchy.visit_any(q.local, q.entry, &q);
+  else
+    hierarchy.visit_all(q.local, q.entry, &q);
+  q.entry = outer;
+  if (q.best) far = std::min(far, outer.round_far(q.best.t + q.best.t_error));
+  return settled;
+}
+
+// What nets need beside the ray's base.
+void make_planes(Query& q) {
+  if (!q.has_normals) {
+    set_normals(q.local);
+    q.inverse_direction = 1.0 / q.local.direction;
+    q.has_normals = true;
+  }
+  set_distances(q.local);
+  q.has_distances = true;
+  if (q.counts) return;
+  // A net on which a ray takes this many cells is degenerate; it must not stop the program.
+  q.counts = &thread_counts();
+  SearchCounts& search = q.counts->search;
+  search.limit = search.cells + cells_per_query;
+}
+
+bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
+  const CompiledSurface& compiled = *q.compiled[surface];
+  if (!q.has_distances) make_planes(q);
+  const Leaf& leaf = compiled.set.leaves[leaf_index];
+  const Net& net = (*compiled.nets)[static_cast<std::size_t>(leaf.patch)];
+  const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
+  if (leaf_index < ordinary && compiled.solver != Solver::clipping) {
+    NewtonRoot found;
+    const NewtonVerdict verdict = solve_by_newton(leaf, net, q.local, found, *q.counts);
+    if (verdict == NewtonVerdict::root)
+      return take_root(q, surface, leaf, net, found.root, found.surface, far);
+    if (verdict == NewtonVerdict::none) return false;
+  }
+  // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
+  // every ray by; in double the leaf's own box does not.
+  if (!meets_box(q.local, q.inverse_direction, compiled.set.boxes[leaf_index])) return false;
+  static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
+  roots.clear();
+  if (leaf_index >= ordinary)
+    solve_radial(compiled.radial[leaf_index - ordinary], leaf, net, q.local, roots);
+  else
+    search_leaf(leaf, net, q.local, roots, *q.counts);
+  for (const Root& root : roots)
+    if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), far)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool nearer(const Hit& a, const Hit& b) {
+  if (a.t != b.t) return a.t < b.t;
+  return a.surface != b.surface ? a.surface < b.surface : a.patch < b.patch;
+}
+
+bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
+  if (!localise(q, surface)) return false;
+  const CompiledSurface& compiled = *q.compiled[surface];
+  if (compiled.ellipsoid) return visit_ellipsoid(q, surface, *compiled.ellipsoid, far);
+  if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves)
+    return visit_sphere(q, surface, compiled.spheres[leaf - leaves], far);
+  return visit_net(q, surface, leaf, far);
+}
+
+bool visit_shared_leaf(void* pointer, unsigned, unsigned leaf, float& far) noexcept {
+  Query& q = *static_cast<Query*>(pointer);
+  return visit_leaf(q, q.instance, leaf, far);
+}
+
+bool visit_by_name(void* pointer, unsigned surface, unsigned leaf, float& far) noexcept {
+  Query& q = *static_cast<Query*>(pointer);
+  return leaf == LeafName::whole ? visit_instance(q, surface, far) : visit_leaf(q, surface, leaf, far);
+}
+
+void finish(const Query& q, Hit& hit) {
+  const auto index = static_cast<std::size_t>(hit.surface);
+  const CompiledSurface& surface = *q.compiled[index];
+  if (!surface.ellipsoid) return;
+  const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - q.origins[index]);
+  hit.u = p.x, hit.v = p.y;
+}
+
+void finish(Query& q) {
+  finish(q, q.best);
+  if (!q.needs_normal) return;
+  const Net& net =
+      (*q.compiled[static_cast<std::size_t>(q.best.surface)]->nets)[static_cast<std::size_t>(q.best.patch)];
+  q.best.normal = unit_normal(net, q.best.u, q.best.v, q.best_first);
+}
+
+}  // namespace rondure

@@ -1,0 +1,76 @@
+// One ray's way through the surfaces: what has been found so far, and how a leaf adds to it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "renderer/intersect/ellipsoid.h"
+#include "renderer/intersect/hierarchy.h"
+#include "renderer/intersect/leaf.h"
+#include "renderer/intersect/radial.h"
+#include "renderer/intersect/solve_leaf.h"
+#include "renderer/intersect/sphere_solver.h"
+#include "renderer/intersect/tracer.h"
+
+namespace rondure {
+
+// What a solver needs of one surface, beside its nets.
+struct CompiledSurface {
+  LeafSet set;                         // one box and no leaf for an analytic surface
+  Box bounds;                          // of all leaves
+  std::vector<RadialPiece> radial;     // of the last leaves
+  std::vector<PatchedSphere> spheres;  // of the boxes after all leaves
+  std::optional<Ellipsoid> ellipsoid;
+  std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
+  const std::vector<Net>* nets = nullptr;
+  Solver solver = Solver::newton;
+};
+
+// Throws std::runtime_error where a net cannot be bounded. `max_depth`: halvings of a patch. `cells_a_side`:
+// of the grid of a sphere's patches.
+CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_side);
+
+// Of the leaves of surfaces that share them; none of a single leaf.
+std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled);
+
+enum class Mode { closest, any, all };
+
+// Lives on the stack of the query.
+struct Query {
+  const CompiledSurface* const* compiled;  // one a surface
+  const dvec3* origins;                    // one a surface
+  const Ray* ray;
+  Mode mode;
+  Entry entry{};          // into the hierarchy that is being traversed
+  unsigned instance = 0;  // whose hierarchy that is, if it is not the scene's
+  // The ray's local forms: the direction is the same in all, the base changes with the surface.
+  LocalRay local{};
+  unsigned local_surface = ~0u;
+  bool local_valid = false;
+  bool has_normals = false, has_distances = false;
+  dvec3 inverse_direction{0.0};  // with the normals
+  Hit best{};
+  FirstOrder<dvec4> best_first{};  // the patch at `best`, where the normal is still to come from it
+  bool needs_normal = false;
+  SolverCounts* counts = nullptr;  // once a net has been met
+  std::vector<Hit>* hits = nullptr;
+  std::vector<int>* signs = nullptr;
+};
+
+bool nearer(const Hit& a, const Hit& b);
+
+// Meets one leaf (an analytic surface has one, 0). `far` is lowered where a hit narrows the search. True when
+// an occlusion query is settled.
+bool visit_leaf(Query& query, unsigned surface, unsigned leaf, float& far) noexcept;
+
+// The same for hierarchies, `query` being a Query: of a whole scene, and of a surface that shares its leaves.
+bool visit_by_name(void* query, unsigned surface, unsigned leaf, float& far) noexcept;
+bool visit_shared_leaf(void* query, unsigned, unsigned leaf, float& far) noexcept;
+
+// What only a hit that is reported needs: the parameters of an analytic surface.
+void finish(const Query& query, Hit& hit);
+// The same for `best`, and its normal.
+void finish(Query& query);
+
+}  // namespace rondure

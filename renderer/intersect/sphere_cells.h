@@ -1,0 +1,15 @@
+// The grid of cells by which points of the sphere find their patch.
+#pragma once
+
+#include "renderer/intersect/sphere_patches.h"
+
+namespace rondure {
+
+// Sets cells and candidates, of patches and inverses that are known.
+//
+// A cell that no side of a patch comes near (sides are bounded by their control points) lies wholly inside a
+// patch, or outside: the patch that holds its middle owns it. All others get candidates: whose sides come
+// near, and whose interior was seen there or next to it.
+void fill_sphere_cells(const std::vector<Net>& nets, SpherePatches& out);
+
+}  // namespace rondure

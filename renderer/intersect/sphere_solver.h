@@ -1,0 +1,55 @@
+// Patches that lie on one ellipsoid, met as that: the ray's roots in closed form, then the patch that holds
+// them.
+#pragma once
+
+#include <optional>
+
+#include "renderer/intersect/ellipsoid.h"
+#include "renderer/intersect/sphere_patches.h"
+
+namespace rondure {
+
+// center + linear . (unit sphere), in the surface's frame, and what of it is there.
+struct PatchedSphere {
+  Ellipsoid ellipsoid;
+  dvec3 center{0.0};
+  double inverse_radius = 0.0;  // of a sphere
+  double outward = 0.0;         // what all patches have in common, as in SpherePatch; 0: nothing
+  SpherePatches patches;
+};
+
+// Of the patches that lie on ellipsoids; `rest[k]`: patch k is in none. `cells_a_side`: of the grid of cells.
+std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int cells_a_side,
+                                           std::vector<bool>& rest);
+
+// What the sphere's two roots have in common.
+struct SphereRoots {
+  dvec3 nearest, direction;  // of the ray, in the unit sphere's space
+  double middle, half;       // roots at middle -+ half, from the local ray's base
+  double inverse_length2;
+};
+
+// False when the ray misses the whole ellipsoid.
+bool meet_sphere(const PatchedSphere& sphere, const LocalRay& ray, SphereRoots& roots) noexcept;
+// On the unit sphere; side -1: where the ray enters, 1: where it leaves.
+dvec3 sphere_point(const SphereRoots& roots, int side) noexcept;
+
+struct PlaceOnSphere {
+  std::int32_t patch;
+  double u, v;
+  double outward;  // as in SpherePatch
+};
+
+// The patch that holds a point of the unit sphere. A point beside all patches, but on one to within rounding
+// (beside_roundoffs), is on that; of such patches on either side of a seam both would take it.
+std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
+                                             const dvec3& n) noexcept;
+// Whether some patch holds it: without parameters, for the most part.
+bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n) noexcept;
+
+// How far beside a patch a point still counts, relative to the semi-axes: 12 for the patch's own distance from
+// the ellipsoid (ellipsoid_roundoffs), 4 for the point's, and for what a search leaves of a root beside singular
+// points residual_roundoffs in either direction, in two coordinates.
+inline constexpr double beside_roundoffs = 64.0;
+
+}  // namespace rondure

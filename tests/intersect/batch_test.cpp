@@ -1,0 +1,124 @@
+// Many rays at once get the bits that each gets alone, on every instruction set of the machine, and those
+// that the solver gives without any.
+
+#include <fmt/core.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "renderer/intersect/sphere_packets.h"
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
+
+using namespace rondure;
+
+namespace {
+
+bool same_bits(const Hit& a, const Hit& b) {
+  const auto bits = [](const Hit& h) {
+    return std::array{h.t,       h.t_error, double(h.surface), double(h.patch), h.u,        h.v,
+                      h.point.x, h.point.y, h.point.z,         h.normal.x,      h.normal.y, h.normal.z};
+  };
+  const auto x = bits(a), y = bits(b);
+  return std::memcmp(x.data(), y.data(), sizeof x) == 0;
+}
+
+// From outside, inside and far away, past the sphere, along its rim, of any length; some odd.
+std::vector<Ray> rays_at(double radius, const dvec3& center, std::size_t count, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<Ray> rays;
+  for (std::size_t k = 0; k < count; ++k) {
+    const dvec3 d = random_direction(random), e = random_direction(random);
+    const double a = uniform(random), b = uniform(random);
+    const double distance = k % 5 == 0 ? 0.9 * a : k % 5 == 1 ? 1e6 : 1.0 + 3.0 * a;
+    Ray ray;
+    ray.origin = center + radius * distance * d;
+    ray.direction =
+        (center + radius * (k % 7 == 0 ? 1.5 : 0.999) * b * e - ray.origin) * std::exp2(40.0 * a - 20.0);
+    if (k % 11 == 0) ray.t_max = a * std::exp2(20.0 - 40.0 * a);
+    if (k % 13 == 0) ray.start = {0, d};
+    if (k % 101 == 0) ray.direction = dvec3(0.0);
+    if (k % 103 == 0) ray.origin.x = NAN;
+    if (k % 107 == 0) ray.direction *= std::exp2(-1000.0);
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+struct Scene {
+  const char* name;
+  std::vector<TracedSurface> surfaces;
+  double radius;
+  dvec3 center;
+};
+
+std::vector<Scene> scenes() {
+  std::vector<Scene> out;
+  const dvec3 aside(3.1, -2.7, 10.3);
+  for (const char* object :
+       {R"({"type": "sphere_tiling", "topology": "cube"})",
+        R"({"type": "sphere_tiling", "topology": "hemispheres"})", R"({"type": "sphere_octant"})",
+        R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron"})",
+        R"({"type": "sphere_octant", "octants": [0, 3, 6]})", R"({"type": "sphere_cap", "z_max": -0.2})"}) {
+    out.push_back({object, {{build_family(object), Solver::quadric}}, 1.0, dvec3(0.0)});
+    out.push_back({object, {{placed(build_family(object), 0.37, aside), Solver::quadric}}, 0.37, aside});
+  }
+  Surface egg = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  for (Net& net : egg.patches)
+    for (dvec4& p : points_of(net)) p.z *= 1.4;
+  out.push_back({"egg", {{egg, Solver::quadric}}, 1.0, dvec3(0.0)});
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  out.push_back({"three",
+                 {{placed(cube, 0.5, dvec3(0.4, 0.0, 0.0)), Solver::quadric},
+                  {placed(cube, 0.5, dvec3(-0.4, 0.0, 0.0)), Solver::quadric},
+                  {placed(cube, 0.5, dvec3(0.0, 0.0, 0.5)), Solver::newton}},
+                 1.0,
+                 dvec3(0.0)});
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("Rays met together get the bits that each gets alone, on every instruction set", "[hits][batch]") {
+  std::mt19937_64 random(59);
+  for (const Scene& scene : scenes()) {
+    const Tracer tracer(scene.surfaces);
+    // Beside another surface, far away, the same sphere is met without the shortcuts of a lone one.
+    std::vector<TracedSurface> with_others = scene.surfaces;
+    for (int k = 0; k < 3; ++k)
+      with_others.push_back(
+          {placed(build_family(R"({"type": "sphere"})"), 1e-3, scene.center + 50.0 * (k + 1.0)),
+           Solver::newton});
+    const Tracer crowded(with_others);
+    const std::vector<Ray> rays = rays_at(scene.radius, scene.center, 3000, random);
+    std::vector<Hit> expected;
+    long hits = 0, wrong = 0;
+    for (const Ray& ray : rays)
+      expected.push_back(crowded.closest(ray)), hits += static_cast<bool>(expected.back());
+    const std::vector<std::string> sets = instruction_sets();
+    REQUIRE(!sets.empty());
+    for (const std::string& set : sets) {
+      use_instruction_set(set);
+      for (const std::size_t width : {1, 2, 7, 8, 16, 33}) {
+        std::vector<Hit> together(rays.size());
+        for (std::size_t first = 0; first < rays.size(); first += width) {
+          const std::size_t count = std::min(width, rays.size() - first);
+          tracer.closest(std::span(rays).subspan(first, count), std::span(together).subspan(first, count));
+        }
+        for (std::size_t k = 0; k < rays.size(); ++k) wrong += !same_bits(together[k], expected[k]);
+      }
+      for (std::size_t k = 0; k < rays.size(); ++k) wrong += !same_bits(tracer.closest(rays[k]), expected[k]);
+    }
+    use_instruction_set("");
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    tracer.occluded(rays, std::span(occluded.get(), rays.size()));
+    for (std::size_t k = 0; k < rays.size(); ++k) wrong += occluded[k] != static_cast<bool>(expected[k]);
+    INFO(scene.name << ": " << sets.size() << " instruction sets, the first " << sets.front());
+    CHECK(wrong == 0);
+    CHECK(hits > static_cast<long>(rays.size()) / 20);
+  }
+}

@@ -1,0 +1,169 @@
+// The quadric solver against Newton's method: the same patches, parameters and normals on spheres and
+// ellipsoids, whole and open, and nothing else on what is neither.
+
+#include <fmt/core.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/bezier/transform.h"
+#include "renderer/intersect/ellipsoid_fit.h"
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
+#include "tests/worst_case.h"
+
+using namespace rondure;
+
+namespace {
+
+constexpr double ulp = 0x1p-52;
+
+struct Case {
+  std::string name;
+  Surface surface;
+  double size = 1.0;    // semi-axes are of this order
+  double aspect = 1.0;  // longest over shortest
+};
+
+Surface mapped(Surface surface, const dmat4& map) {
+  for (Net& net : surface.patches)
+    for (dvec4& p : points_of(net)) p = map * p;
+  return surface;
+}
+
+std::vector<Case> cases() {
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})"),
+                octants = build_family(R"({"type": "sphere_octant"})");
+  dmat4 skew(dvec4(1.3, 0.2, 0.1, 0), dvec4(-0.3, 0.8, 0.4, 0), dvec4(0.1, -0.2, 0.6, 0),
+             dvec4(0.5, -2.0, 1.0, 1));
+  std::vector<Case> out = {
+      {"cube", cube},
+      {"hemispheres", build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})")},
+      {"octants", octants},
+      {"icosahedron", build_family(R"({"type": "sphere_tiling", "topology": "icosahedron_quads"})")},
+      {"rhombicuboctahedron",
+       build_family(R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron"})")},
+      {"three octants", build_family(R"({"type": "sphere_octant", "octants": [0, 3, 5]})")},
+      {"cap", build_family(R"({"type": "sphere_cap", "z_max": -0.3})")},
+      {"quadrilateral",
+       build_family(
+           R"({"type": "spherical_quad", "corners": [[3, 0, -0.5], [0.2, 2, -0.4], [-1, 0.5, 1], [0.3, -1, 0.2]]})")},
+      {"tiny cube", placed(cube, 1e-7, dvec3(0.0)), 1e-7},
+      {"skew cube", mapped(cube, skew), 1.0, 3.0},
+      {"skew octants", mapped(octants, skew), 1.0, 3.0}};
+  dmat4 flat(1.0);
+  flat[2][2] = 0.01;
+  out.push_back({"flat cube", mapped(cube, flat), 1.0, 100.0});
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("The quadric solver agrees with Newton's method, hit by hit", "[solvers]") {
+  long rays = 0, hits = 0, counts_differ = 0, other_patch = 0;
+  std::string worst = "none";
+  WorstCase t, normal, parameter, on_patch;
+  for (const Case& c : cases()) {
+    REQUIRE(fit_ellipsoids(c.surface.patches).size() == 1);
+    const Tracer newton({{c.surface, Solver::newton}}), quadric({{c.surface, Solver::quadric}});
+    CHECK(quadric.statistics().leaves == 1);
+    std::mt19937_64 random(41);
+    dvec3 middle(0.0);
+    for (const Net& net : c.surface.patches)
+      middle += net_point(net, 0.5, 0.25) / static_cast<double>(c.surface.patches.size());
+    for (int k = 0; k < 6000; ++k) {
+      const dvec3 d = random_direction(random), e = random_direction(random);
+      const double near = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+      // From outside and inside, at the surface.
+      const dvec3 origin = middle + (k % 3 == 0 ? 0.5 : 4.0) * c.size * d;
+      const Ray ray{origin, middle + c.size * near * e - origin};
+      const std::vector<Hit> a = newton.all(ray), b = quadric.all(ray);
+      ++rays;
+      const auto describe = [&] {
+        return fmt::format("{}: o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}): {} and {}",
+                           c.name, ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
+                           ray.direction.z, a.size(), b.size());
+      };
+      if (a.size() != b.size()) {
+        ++counts_differ, worst = describe();
+        continue;
+      }
+      hits += static_cast<long>(a.size());
+      for (std::size_t j = 0; j < a.size(); ++j) {
+        t.add(std::fabs(a[j].t - b[j].t), a[j].t_error + b[j].t_error, describe);
+        const double cosine = std::fabs(glm::dot(a[j].normal, ray.direction)) / glm::length(ray.direction);
+        // Both points are within some ulps of the surface at right angles to the ray; along it, and so in
+        // normal and parameters, that is stretched. 32 ulps: 8 of either's position, twice for the normal's
+        // turn over the shorter semi-axis.
+        const double bound = 32.0 * ulp * c.aspect * c.aspect / std::max(cosine, 1e-7);
+        if (a[j].patch != b[j].patch) {
+          // On a seam either may be told: the point must be the same.
+          const Net& net = c.surface.patches[static_cast<std::size_t>(b[j].patch)];
+          other_patch += !(glm::distance(net_point(net, b[j].u, b[j].v), a[j].point) < bound * c.size);
+          continue;
+        }
+        const SurfaceJet jet =
+            surface_jet(c.surface.patches[static_cast<std::size_t>(b[j].patch)], b[j].u, b[j].v);
+        on_patch.add(glm::distance(jet.point, b[j].point), 16.0 * ulp * c.size * c.aspect, describe);
+        const double sine =
+            glm::length(glm::cross(jet.du, jet.dv)) / (glm::length(jet.du) * glm::length(jet.dv));
+        // Newton's own normal comes from the parameters, and those from tangents that may be nearly parallel.
+        normal.add(glm::distance(a[j].normal, b[j].normal), bound * (1.0 + 1.0 / std::max(sine, 1e-7)),
+                   describe);
+        const double off_u = std::fabs(a[j].u - b[j].u) * glm::length(jet.du),
+                     off_v = std::fabs(a[j].v - b[j].v) * glm::length(jet.dv);
+        parameter.add(std::max(off_u, off_v), bound * c.size / std::max(sine, 1e-7), describe);
+      }
+    }
+  }
+  INFO(rays << " rays, " << hits << " hits; " << worst);
+  INFO("t: " << t.text());
+  INFO("normal: " << normal.text());
+  INFO("parameters: " << parameter.text());
+  INFO("on the patch: " << on_patch.text());
+  CHECK(counts_differ == 0);
+  CHECK(other_patch == 0);
+  CHECK(t.failures() == 0);
+  CHECK(normal.failures() == 0);
+  CHECK(parameter.failures() == 0);
+  CHECK(on_patch.failures() == 0);
+  CHECK(hits > rays / 2);
+}
+
+TEST_CASE("Ellipsoids are found for what they are", "[solvers]") {
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  const std::vector<EllipsoidFit> unit = fit_ellipsoids(cube.patches);
+  REQUIRE(unit.size() == 1);
+  CHECK(unit[0].linear == dmat3(1.0));
+  CHECK(unit[0].center == dvec3(0.0));
+  CHECK(unit[0].patches.size() == 6);
+
+  // Two spheres and a plane in one surface.
+  Surface mixed = cube;
+  const dvec3 away(3.0, 0.5, -1.0);
+  for (const Net& net : cube.patches) {
+    mixed.patches.push_back(net);
+    for (dvec4& p : points_of(mixed.patches.back())) p = dvec4(0.5 * dvec3(p) + away * p.w, p.w);
+  }
+  mixed.patches.push_back(build_family(R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
+      "net": [[[-1, -1, 3, 1], [-1, 1, 3, 1]], [[1, -1, 3, 1], [1, 1, 3, 1]]]}]})")
+                              .patches[0]);
+  const std::vector<EllipsoidFit> two = fit_ellipsoids(mixed.patches);
+  REQUIRE(two.size() == 2);
+  CHECK(two[0].patches.size() == 6);
+  CHECK(two[1].patches.size() == 6);
+  CHECK(glm::distance(two[1].center, away) < 4.0 * ulp * glm::length(away));
+  const Tracer tracer({{mixed, Solver::quadric}});
+  CHECK(tracer.all({dvec3(0.1, 0.2, 5.0), dvec3(0.0, 0.0, -1.0)}).size() == 3);
+
+  // What bulges by 10^-13 is no sphere.
+  Surface bulging = cube;
+  points_of(bulging.patches[0])[12].x += 1e-13;
+  for (const EllipsoidFit& fit : fit_ellipsoids(bulging.patches))
+    CHECK(std::find(fit.patches.begin(), fit.patches.end(), 0u) == fit.patches.end());
+  CHECK(fit_ellipsoids(build_family(R"({"type": "iss"})").patches).empty());
+}
