@@ -10,6 +10,7 @@
 #include "renderer/sampling/warps.h"
 #include "renderer/study/corner_normals.h"
 #include "renderer/study/picture.h"
+#include "renderer/study/walk.h"
 
 namespace rondure {
 namespace {
@@ -20,8 +21,8 @@ dvec3 vector_at(const Table& sites, std::size_t row, const char* x, const char* 
   return {sites.number(row, x), sites.number(row, y), sites.number(row, z)};
 }
 
-// Straight down on the site, in light at 89 degrees to the normal: what turns the normal by an angle changes the
-// light by 57 times that.
+// Straight down on the site, in light at 89 degrees to the normal: what turns the normal by an angle changes
+// the light by 57 times that.
 std::string scene_of(const Subject& subject, const dvec3& point, const dvec3& normal, double pixel,
                      int side) {
   const Frame frame = frame_about(normal);
@@ -118,8 +119,11 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
   const std::string stem = fmt::format("{}-{}", subject.name, sites.at(row, "site"));
   const Tracer tracer = tracer_for(scene_of(subject, point, normal, pixels.front(), side), stem, registry);
   const NormalField field(tracer.surfaces().front().surface);
-  const bool quadric = field.quadric(static_cast<int>(sites.number(row, "patch"))) != nullptr;
-  CloseUps result{subject.name, group, quadric ? "analytic" : "limit", {}};
+  SingularSite site;
+  site.patch = static_cast<int>(sites.number(row, "patch"));
+  site.point = point;  // no subject is moved
+  CloseUps result{
+      subject.name, group, estimator_names()[static_cast<std::size_t>(reference_at(field, site))], {}};
   for (const double pixel : pixels) {
     const std::string scene = scene_of(subject, point, normal, pixel, side);
     const std::string file = fmt::format("{}-{:.0e}.json", stem, pixel);

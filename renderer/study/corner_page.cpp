@@ -134,7 +134,9 @@ std::string solver_line(const Table& walks, const Group& group) {
       "most {} "
       "extents of the surface off the place. A ray takes {} Newton steps, leaves {} leaves to clipping and "
       "{} cells "
-      "there on average; two rays at one place take {} cells at most.</p>\n",
+      "there on average; two rays at one place take {} cells at most. (On an open surface a ray may rightly "
+      "pass "
+      "by a place that is nearer to the boundary than the place is rounded.)</p>\n",
       hits, rays, number_text(off), number_text(steps / rays), number_text(undecided / rays),
       number_text(cells / rays), most_cells);
 }

@@ -18,10 +18,17 @@ dvec2 middle_of(const Net& net) {
   return std::holds_alternative<TensorNet>(net) ? dvec2(0.5, 0.5) : dvec2(1.0 / 3.0, 1.0 / 3.0);
 }
 
-// The search polishes zeros to a few roundings; on the boundary they are meant to lie there.
-double snapped(double x) {
-  constexpr double close = 1e-9;
+double snapped(double x, double close) {
   return std::abs(x) < close ? 0.0 : std::abs(x - 1.0) < close ? 1.0 : x;
+}
+
+// Where a zero that the search polished is meant to lie: at a corner, if that is one; on the boundary, if it
+// is there to some roundings. Zeros of higher order are found to a root of those only.
+dvec2 placed(const Net& net, dvec2 found) {
+  const dvec2 corner(snapped(found.x, 1e-4), snapped(found.y, 1e-4));
+  const bool ends = corner.x == std::round(corner.x) && corner.y == std::round(corner.y);
+  if (ends && germ_of(net, corner).order > 0) return corner;
+  return {snapped(found.x, 1e-9), snapped(found.y, 1e-9)};
 }
 
 std::string place_of(const Net& net, dvec2 p) {
@@ -103,7 +110,7 @@ SiteSearch singular_sites(const Surface& surface) {
     Surface alone;
     alone.patches.push_back(net);
     const Regularity found = regularity_of(alone, pieces_a_patch);
-    for (const SingularPoint& s : found.singular) add({snapped(s.u), snapped(s.v)});
+    for (const SingularPoint& s : found.singular) add(placed(net, {s.u, s.v}));
     (found.verdict == Regularity::Verdict::undecided ? search.undecided : search.proved) += 1;
     for (const dvec2& p : places) search.sites.push_back(site_at(net, patch, p));
   }

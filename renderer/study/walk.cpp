@@ -89,9 +89,19 @@ void measure_rays(const Surface& surface, const Tracer& tracer, const dvec3& poi
 
 }  // namespace
 
+NormalEstimator reference_at(const NormalField& field, const SingularSite& site) {
+  const PatchQuadric* q = field.quadric(site.patch);
+  if (!q) return NormalEstimator::limit;
+  // A length of the fit's scale away the gradient has its usual size.
+  const double here = glm::length(q->quadric.gradient(site.point));
+  const double usual = glm::length(q->quadric.gradient(site.point + dvec3(0.5, 0.4, 0.3) * q->quadric.scale));
+  return here > 1e-3 * usual ? NormalEstimator::analytic : NormalEstimator::limit;
+}
+
 std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const Tracer& tracer,
                            const SingularSite& site, std::size_t index, const WalkOptions& options) {
   const Net& net = surface.patches[static_cast<std::size_t>(site.patch)];
+  const NormalEstimator exact = reference_at(field, site);
   std::vector<WalkStep> steps;
   for (const dvec2& way : ways_in(net, site, options.ways)) {
     for (int k = 0; k <= (options.decades - 1) * options.per_decade; ++k) {
@@ -105,9 +115,7 @@ std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, con
       step.distance = glm::distance(step.at, site.at);
       if (!(step.distance > 0.0)) continue;
       measure_jacobian(net, step);
-      const PatchQuadric* quadric = field.quadric(site.patch);
-      step.reference = quadric ? "analytic" : "limit";
-      const NormalEstimator exact = quadric ? NormalEstimator::analytic : NormalEstimator::limit;
+      step.reference = estimator_names()[static_cast<std::size_t>(exact)];
       const NormalEstimate reference = field.at(exact, site.patch, step.at.x, step.at.y);
       if (!reference) continue;
       measure_normals(field, site, *reference, step);

@@ -37,6 +37,11 @@ struct WalkOptions {
   int decades = 14;    // from 10^-1
 };
 
+// What the other normals at a site are compared with: the gradient of the quadric that the patch lies on; the
+// limit where there is no quadric, and beside a quadric's own singular point, a cone's tip, where the
+// gradient vanishes and rounding of the point turns it.
+NormalEstimator reference_at(const NormalField& field, const SingularSite& site);
+
 // All walks into one site. The field and the tracer are of the same surface, which is the tracer's only one.
 std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const Tracer& tracer,
                            const SingularSite& site, std::size_t index, const WalkOptions& options);
