@@ -22,6 +22,8 @@ auto with_degrees(int m, int n, const Call& call) {
       return call(Degree<2>{}, Degree<2>{});
     case 204:
       return call(Degree<2>{}, Degree<4>{});
+    case 303:
+      return call(Degree<3>{}, Degree<3>{});
     case 402:
       return call(Degree<4>{}, Degree<2>{});
     case 404:

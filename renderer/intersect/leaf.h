@@ -28,8 +28,9 @@ struct LeafFrame {
   dvec2 across[4];  // (xi, eta) = across[0] x + across[1] y + across[2] z + across[3]
   dvec4 normal;     // zeta = normal . (x, y, z, 1), in units of the leaf's size
 
-  // Over the leaf, |N_xieta - (a, b)| componentwise, |N_zeta| and |w - 1|, with room for rounding.
-  float bound[2], bound_zeta, bound_weight;
+  // Over the leaf, |N_xieta - (a, b)| componentwise, |N_zeta - middle_zeta| and |w - 1|, with room for
+  // rounding.
+  float bound[2], bound_zeta, bound_weight, middle_zeta;
   // Over the enlarged leaf: the larger row sum of |d N_xieta - I|, the row sum of |d w|, and |d N_zeta|.
   float slack, slack_weight, slack_zeta[2];
 

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "renderer/intersect/interval.h"
+
 namespace rondure {
 namespace {
 
@@ -100,8 +102,11 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
 
   const ToFrame to_frame{frame, 1.0 / center.value.w};
   dvec4 most(0.0);
+  Interval zeta;
   visit_parameters(shape, [&](std::size_t k, dvec2 p) {
-    most = glm::max(most, glm::abs(to_frame(points[k]) - dvec4(p, 0.0, 1.0)));
+    const dvec4 here = to_frame(points[k]);
+    most = glm::max(most, glm::abs(here - dvec4(p, 0.0, 1.0)));
+    zeta = {std::min(zeta.low, here.z), std::max(zeta.high, here.z)};
   });
   // Rounding of a ray's plane may move a root by so much, and the frame's own by less. A ray that meets the
   // leaf is no further from the origin than the leaf.
@@ -110,7 +115,9 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
   const double rows[3] = {glm::length(da), glm::length(db), glm::length(dn)};
   frame.bound[0] = up(most.x + error * rows[0]);
   frame.bound[1] = up(most.y + error * rows[1]);
-  frame.bound_zeta = up(most.z + error * rows[2]);
+  frame.middle_zeta = static_cast<float>(0.5 * (zeta.low + zeta.high));
+  frame.bound_zeta =
+      up(std::max(zeta.high - frame.middle_zeta, frame.middle_zeta - zeta.low) + error * rows[2]);
   frame.bound_weight = up(most.w);
 
   for (dvec4& p : wide) p = to_frame(p);

@@ -3,8 +3,8 @@
 // In the leaf's frame (leaf.h) a ray is its slope s and the point p0 where it meets the plane zeta = 0, and
 // its roots are those of equation (1) there.
 //
-// None: a root p in the leaf satisfies |p - p0| <= bound + |s| bound_zeta + |p0| bound_weight, so that a p0
-// too far outside proves that there is none.
+// None: a root p in the leaf satisfies |p - (p0 + s middle_zeta)| <= bound + |s| bound_zeta + |p0|
+// bound_weight, so that a ray too far outside has none.
 //
 // One: for two points p and q of the enlarged leaf, the left sides of (1) differ by (A - s g^T)(p - q), where
 // A differs from I by at most e = slack + |p0| slack_weight in the maximum norm and |g| <= slack_zeta, which

@@ -132,14 +132,15 @@ FOR_THIS_SET NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate_at,
   const LeafFrame& frame = leaf.frame;
   const FramedRay local = framed(frame, ray);
   const dvec2 lean = glm::abs(local.slope), far = glm::abs(local.foot);
+  const dvec2 middle = local.foot + double(frame.middle_zeta) * local.slope;
   const dvec2 room = dvec2(frame.bound[0], frame.bound[1]) + lean * double(frame.bound_zeta) +
                      far * double(frame.bound_weight);
   // Written so that what is not finite is never taken for a proof.
   bool misses;
   if constexpr (rectangle) {
-    misses = far.x > 0.5 + room.x || far.y > 0.5 + room.y;
+    misses = std::fabs(middle.x) > 0.5 + room.x || std::fabs(middle.y) > 0.5 + room.y;
   } else {
-    const dvec2 p = local.foot + Shape::center();
+    const dvec2 p = middle + Shape::center();
     misses = p.x < -room.x || p.y < -room.y || p.x + p.y > 1.0 + room.x + room.y;
   }
   if (misses) return NewtonVerdict::none;
@@ -159,9 +160,9 @@ FOR_THIS_SET NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate_at,
   dvec2 p = Shape::center() + start;
   for (int k = 0; k < step_limit; ++k) {
     if (!(Shape::outside(p) < margin)) {
-      // A root of the leaf would be within the room of the foot, and no iterate further from it than the
+      // A root of the leaf would be within the room of the middle, and no iterate further from it than the
       // first.
-      const dvec2 first = room + glm::abs(start - local.foot);
+      const dvec2 first = room + glm::abs(start - middle);
       const double reach = std::max(first.x, first.y);
       return straight + oblique < contraction_limit && Shape::outside(p) > reach ? NewtonVerdict::none
                                                                                  : NewtonVerdict::undecided;

@@ -15,6 +15,7 @@
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/bench/embree_baselines.h"
+#include "tests/bench/newton.h"
 #include "tests/bench/radial.h"
 #include "tests/bench/ray_sets.h"
 #include "tests/bench/rows.h"
@@ -182,6 +183,7 @@ int run(int argc, char** argv) {
   if (!json.empty()) write_json(rows, json);
   print_steps(shapes);
   print_radial(rounds);
+  print_newton(rounds);
   print_scale(rounds);
   return 0;
 }
