@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
@@ -19,10 +20,17 @@ struct Cell {
   int depth;
 };
 
-// Whether a plane separates all control points from zero: then the cell holds none.
+// Cells looked at before the rest counts as holding a zero: beyond, the net is as good as one that does.
+constexpr int most_cells = 1 << 18;
+
+// Whether a plane separates all control points from zero: then the cell holds none. Directions alone count,
+// so that one large point does not choose the plane for all.
 bool separated(const std::vector<dvec4>& points) {
   dvec4 sum(0.0);
-  for (const dvec4& p : points) sum += p;
+  for (const dvec4& p : points) {
+    const double length = glm::length(p);
+    if (length > 0.0) sum += p / length;
+  }
   return std::all_of(points.begin(), points.end(), [&](const dvec4& p) { return glm::dot(sum, p) > 0.0; });
 }
 
@@ -60,11 +68,11 @@ template <class Polynomial>
 void search(const Polynomial& p, const lvec4& mask, std::size_t limit, std::vector<dvec2>& found) {
   std::vector<Cell> cells{whole(p)};
   for (const lvec4& c : p.coefficients) cells[0].points.emplace_back(c * mask);
-  while (!cells.empty() && found.size() < limit) {
+  for (int count = 0; !cells.empty() && found.size() < limit && count <= most_cells; ++count) {
     const Cell cell = std::move(cells.back());
     cells.pop_back();
     if (separated(cell.points)) continue;
-    if (cell.depth < deepest) {
+    if (cell.depth < deepest && count < most_cells) {
       for (Cell& part : parts_of(p, cell)) cells.push_back(std::move(part));
       continue;
     }
