@@ -99,25 +99,35 @@ struct Shapes {
   Surface kites = build_family(R"({"type": "sphere_tiling", "topology": "icosahedron_quads"})");
 };
 
-std::vector<Row> rondure_rows(const Shapes& shapes) {
+// All, or the one that is called `only` (as NAME/WIDTH).
+std::vector<Row> rondure_rows(const Shapes& shapes, const std::string& only = {}) {
+  struct Case {
+    const char* name;
+    const Surface* surface;
+    Solver solver;
+    std::vector<int> widths;
+    std::size_t part = 1;
+  };
+  const Case cases[] = {{"sphere", &shapes.sphere, Solver::newton, {1, 16}},
+                        {"cube, quadric", &shapes.cube, Solver::quadric, {1, 4, 8, 16}},
+                        {"hemispheres, quadric", &shapes.hemispheres, Solver::quadric, {1, 16}},
+                        {"octants, quadric", &shapes.octants, Solver::quadric, {1, 16}},
+                        {"60 kites, quadric", &shapes.kites, Solver::quadric, {1, 16}},
+                        {"cube, newton", &shapes.cube, Solver::newton, {1, 16}, 4},
+                        {"hemispheres, newton", &shapes.hemispheres, Solver::newton, {1}, 4},
+                        {"octants, newton", &shapes.octants, Solver::newton, {1}, 4},
+                        {"cube, clipping", &shapes.cube, Solver::clipping, {1}, 8}};
   std::vector<Row> rows;
-  const TracerPointer sphere = tracer_of(shapes.sphere, Solver::newton);
-  rows.push_back(row_of("sphere", sphere, 1));
-  rows.push_back(row_of("sphere", sphere, 16));
-  const TracerPointer cube = tracer_of(shapes.cube, Solver::quadric);
-  for (const int width : {1, 4, 8, 16}) rows.push_back(row_of("cube, quadric", cube, width));
-  rows.push_back(occlusion_row("cube, quadric, occluded", cube));
-  const std::pair<const char*, const Surface*> others[] = {
-      {"hemispheres", &shapes.hemispheres}, {"octants", &shapes.octants}, {"60 kites", &shapes.kites}};
-  for (const auto& [name, surface] : others) {
-    const TracerPointer quadric = tracer_of(*surface, Solver::quadric);
-    for (const int width : {1, 16}) rows.push_back(row_of(std::string(name) + ", quadric", quadric, width));
+  for (const Case& c : cases) {
+    TracerPointer tracer;
+    for (const int width : c.widths) {
+      if (!only.empty() && only != fmt::format("{}/{}", c.name, width)) continue;
+      if (!tracer) tracer = tracer_of(*c.surface, c.solver);
+      rows.push_back(row_of(c.name, tracer, width, c.part));
+    }
   }
-  const TracerPointer newton = tracer_of(shapes.cube, Solver::newton);
-  for (const int width : {1, 16}) rows.push_back(row_of("cube, newton", newton, width, 4));
-  rows.push_back(row_of("hemispheres, newton", tracer_of(shapes.hemispheres, Solver::newton), 1, 4));
-  rows.push_back(row_of("octants, newton", tracer_of(shapes.octants, Solver::newton), 1, 4));
-  rows.push_back(row_of("cube, clipping", tracer_of(shapes.cube, Solver::clipping), 1, 8));
+  if (only.empty())
+    rows.push_back(occlusion_row("cube, quadric, occluded", tracer_of(shapes.cube, Solver::quadric)));
   return rows;
 }
 
@@ -145,8 +155,7 @@ void print_steps(const Shapes& shapes) {
 
 int count(const std::string& name) {
   const Shapes shapes;
-  for (const Row& row : rondure_rows(shapes)) {
-    if (fmt::format("{}/{}", row.name, row.width) != name) continue;
+  for (const Row& row : rondure_rows(shapes, name)) {
     const std::vector<Ray> rays = incoherent_rays(2000);
     const std::size_t hits = counted_rays(row, rays);
     fmt::print("{} rays, {} hits\n", rays.size(), hits);
