@@ -6,13 +6,14 @@
 namespace rondure {
 namespace {
 
-enum Used { nothing = 0, closed_form = 1, newton = 2, clipping = 3, radial = 4 };
+enum Used { nothing = 0, closed_form = 1, newton = 2, clipping = 3, radial = 4, quadric = 5 };
 
 Used solver_used(const World& world, const Hit& hit, std::size_t cells) {
   if (!hit) return nothing;
   const TracedSurface& traced = world.tracer().surfaces()[static_cast<std::size_t>(hit.surface)];
   if (traced.surface.ellipsoid) return closed_form;
   if (traced.solver == Solver::radial) return radial;
+  if (traced.solver == Solver::quadric) return quadric;
   return cells > 0 || traced.solver == Solver::clipping ? clipping : newton;
 }
 
@@ -35,7 +36,7 @@ void register_work_layer(Registry& registry) {
   registry.add(LayerFactory{
       "work",
       "What the ray took: the hit's solver (0 none, 1 closed form, 2 newton, 3 clipping on some "
-      "leaf, 4 radial), leaves tested, Newton steps, leaves left to clipping, cells of clipping.",
+      "leaf, 4 radial, 5 quadric), leaves tested, Newton steps, leaves left to clipping, cells of clipping.",
       "Work",
       {"solver", "leaves", "steps", "undecided", "cells"},
       {},

@@ -80,10 +80,15 @@ bool take_sample(const Job& job, const Ray& ray, const Hit& first, Sampler& samp
   return false;
 }
 
+// A layer's own failure, apart from an integrator's.
+struct LayerError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 // What a float holds of a layer's value.
 float stored(double value, const std::string& channel) {
   if (std::isnan(value))
-    throw std::runtime_error(fmt::format("the layer \"{}\" gave no number for a pixel", channel));
+    throw LayerError(fmt::format("the layer \"{}\" gave no number for a pixel", channel));
   constexpr double most = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -most, most));
 }
@@ -93,7 +98,11 @@ void take_layers(const Job& job, const Ray& ray, const Hit& hit, std::size_t at,
   std::vector<double> values;
   for (const FilmLayer& layer : job.scene.film.layers) {
     values.assign(layer.channels.size(), 0.0);
-    layer.function(job.world, ray, hit, values.data());
+    try {
+      layer.function(job.world, ray, hit, values.data());
+    } catch (const std::exception& error) {
+      throw LayerError(fmt::format("the layer \"{}\" failed: {}", layer.type, error.what()));
+    }
     for (const double value : values) {
       film.layers[plane].values[at] = stored(value, film.layers[plane].channel);
       ++plane;
@@ -219,6 +228,8 @@ void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const Wo
       rondure::parallel_for(static_cast<std::size_t>(across * down), render_tile, tbb::simple_partitioner{});
     });
   } catch (const Interrupted&) {
+    throw;
+  } catch (const LayerError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;

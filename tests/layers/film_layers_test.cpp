@@ -108,6 +108,10 @@ TEST_CASE("a layer that gives no number ends the render, an infinite one is stor
   CHECK(s.render(1).layers[0].values[3] == std::numeric_limits<float>::max());
   given = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(s.render(1), "the layer \"Own.x\" gave no number for a pixel");
+  s.scene.film.layers[0].function = [](const World&, const Ray&, const Hit&, double*) {
+    throw std::runtime_error("no luck");
+  };
+  CHECK_THROWS_WITH(s.render(1), "the layer \"own\" failed: no luck");
 }
 
 TEST_CASE("an override names the film's layers and keeps their parameters", "[layers]") {
