@@ -120,7 +120,12 @@ void add_trace(CLI::App& program, CommandLine& line) {
   command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")
       ->required();
   add_output(*command, options->output, "Table of hits");
-  command->add_flag("--all", options->all, "Every hit of each ray, in order of t, not the closest alone");
+  CLI::Option* all =
+      command->add_flag("--all", options->all, "Every hit of each ray, in order of t, not the closest alone");
+  command
+      ->add_flag("--certify", options->certify,
+                 "Also write what is proven of the closest hit, and bounds on its errors")
+      ->excludes(all);
 }
 
 void add_eval(CLI::App& program, CommandLine& line) {

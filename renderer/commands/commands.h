@@ -38,6 +38,7 @@ struct TraceCommand {
   std::string rays;
   std::string output = "-";
   bool all = false;
+  bool certify = false;
 };
 void run_trace(const Registry& registry, const TraceCommand& options);
 

@@ -8,6 +8,7 @@
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/tracer_of.h"
+#include "renderer/intersect/certificate.h"
 #include "renderer/parallel/parallel_for.h"
 #include "renderer/scene/scene_reader.h"
 
@@ -26,6 +27,17 @@ Ray read_ray(const CsvReader& reader, const std::vector<double>& row, std::size_
   if (present > 6) ray.t_min = row[6];
   if (present > 7) ray.t_max = row[7];
   return ray;
+}
+
+// Of the closest hit, or of a miss: proven or not, in columns after those of the hit.
+void append_certificate(std::string& line, const Hit& hit, const Certificate& c) {
+  line.pop_back();
+  fmt::format_to(std::back_inserter(line), ",{},{},{},{}", name_of(c.means), int{c.exists}, int{c.unique},
+                 int{c.first});
+  if (hit && c)
+    fmt::format_to(std::back_inserter(line), ",{:.17g},{:.17g}\n", c.t_error, c.point_error);
+  else
+    line += ",,\n";
 }
 
 void append_hit(std::string& out, std::size_t ray, const Hit& hit) {
@@ -47,7 +59,9 @@ void run_trace(const Registry& registry, const TraceCommand& options) {
   const Tracer tracer = tracer_of(scene);
   CsvReader reader(options.rays, {"ox", "oy", "oz", "dx", "dy", "dz", "tmin", "tmax"}, 6);
   TextOutput output(options.output);
-  output.write("ray,hit,t,x,y,z,nx,ny,nz,surface,patch,u,v\n");
+  output.write("ray,hit,t,x,y,z,nx,ny,nz,surface,patch,u,v");
+  output.write(options.certify ? ",means,exists,unique,first,t_error,point_error\n" : "\n");
+  const Certifier certifier(tracer);
 
   std::vector<Ray> rays;
   std::vector<std::string> lines;
@@ -59,7 +73,12 @@ void run_trace(const Registry& registry, const TraceCommand& options) {
       rays.push_back(read_ray(reader, row, present));
     lines.assign(rays.size(), {});
     parallel_for(rays.size(), [&](std::size_t k) {
-      if (!options.all) return append_hit(lines[k], first + k, tracer.closest(rays[k]));
+      if (!options.all) {
+        const Hit hit = tracer.closest(rays[k]);
+        append_hit(lines[k], first + k, hit);
+        if (options.certify) append_certificate(lines[k], hit, certifier.certify(rays[k], hit));
+        return;
+      }
       const std::vector<Hit> hits = tracer.all(rays[k]);
       if (hits.empty()) append_hit(lines[k], first + k, {});
       for (const Hit& hit : hits) append_hit(lines[k], first + k, hit);

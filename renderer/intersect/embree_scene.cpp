@@ -117,10 +117,10 @@ struct EmbreeScene::Implementation {
 };
 
 EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius,
-                         Visitor visitor)
+                         Visitor visitor, const char* settings)
     : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
-  self.device = rtcNewDevice(nullptr);
+  self.device = rtcNewDevice(settings);
   if (!self.device)
     throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);

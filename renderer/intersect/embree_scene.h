@@ -32,8 +32,9 @@ class EmbreeScene {
   using Visitor = bool (*)(void* query, unsigned surface, unsigned leaf, float& far) noexcept;
 
   // boxes[k] bounds the leaf names[k], in double, about the scene's centre; every corner is within `radius`
-  // of it.
-  EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius, Visitor visitor);
+  // of it. `settings` are Embree's own, such as "isa=avx2". Throws std::runtime_error when it cannot.
+  EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius, Visitor visitor,
+              const char* settings = "");
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -20,9 +20,8 @@ namespace {
 constexpr double least = 1e-17, most = 1e-2;  // of the maps
 
 std::string scene_of(const std::string& object, int side) {
-  // By the patches themselves: in closed form the quadric would be met, whatever they are.
   std::string placed = object;
-  placed.replace(placed.find('{'), 1, "{ \"material\": \"pewter\", \"solver\": \"newton\",");
+  placed.replace(placed.find('{'), 1, "{ \"material\": \"pewter\",");
   return fmt::format(R"({{
   "camera": {{ "origin": [1.1, -4.6, 2.3], "target": [0, 0, 0], "fov": 27 }},
   "film": {{ "resolution": [{0}, {0}], "filter": "box" }},

@@ -1,0 +1,216 @@
+#include "renderer/intersect/certificate.h"
+
+#include <optional>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/certified_ellipsoid.h"
+#include "renderer/intersect/certified_search.h"
+#include "renderer/intersect/slab.h"
+
+namespace rondure {
+namespace {
+
+// Pieces of one patch that a proof may look at.
+constexpr long quick = 1 << 9, patient = 1 << 13;
+
+// Of a surface, and of each of its patches; none where a weight is not positive.
+struct Bounds {
+  std::optional<Box> whole;
+  std::vector<std::optional<Box>> patches;
+};
+
+std::optional<Box> box_of(const Net& net) {
+  Box box;
+  for (const dvec4& p : points_of(net)) {
+    if (!(p.w > 0.0)) return std::nullopt;
+    box.add(dvec3(p) / p.w);
+  }
+  return box;
+}
+
+Bounds bounds_of(const Surface& surface) {
+  Bounds out;
+  Box whole;
+  bool bounded = !surface.ellipsoid;
+  for (const Net& net : surface.patches) {
+    out.patches.push_back(box_of(net));
+    bounded = bounded && out.patches.back();
+    if (bounded) whole.add(*out.patches.back());
+  }
+  if (bounded) out.whole = whole;
+  return out;
+}
+
+}  // namespace
+
+const char* name_of(Means means) {
+  static constexpr const char* names[] = {"interval", "extended", "boundary", "unresolved"};
+  return names[static_cast<int>(means)];
+}
+
+struct Certifier::Surfaces {
+  const std::vector<TracedSurface>& traced;
+  std::vector<Bounds> bounds;
+};
+
+namespace {
+
+// One attempt at a proof, in the precision T.
+template <class T>
+class Attempt {
+ public:
+  Attempt(const std::vector<TracedSurface>& traced, const std::vector<Bounds>& bounds, const Ray& ray,
+          const Hit& hit, long limit)
+      : traced_(traced), bounds_(bounds), ray_(ray), hit_(hit), limit_(limit) {}
+
+  Certificate run() {
+    bool found = !hit_;
+    if (hit_) found = locate();
+    // Without a proof that it exists there is nothing that could be first.
+    if (found) out_.first = nothing_earlier();
+    const bool hit_proven = !hit_ || (out_.exists && out_.unique);
+    if (out_.first && hit_proven)
+      out_.means = std::is_same_v<T, double> ? Means::interval : Means::extended;
+    else if (out_.first && found)
+      out_.means = Means::boundary;
+    if (hit_ && found) measure();
+    return out_;
+  }
+
+ private:
+  const std::vector<TracedSurface>& traced_;
+  const std::vector<Bounds>& bounds_;
+  const Ray& ray_;
+  const Hit& hit_;
+  const long limit_;
+  Certificate out_;
+  Enclosure<T> at_ = Enclosure<T>::everything();  // t of the root
+
+  // t of the local ray's s.
+  static Enclosure<T> t_of(const LocalRay& local, const Enclosure<T>& s) {
+    const Enclosure<T> scale{static_cast<T>(local.scale), static_cast<T>(local.scale)},
+        slide{static_cast<T>(local.slide), static_cast<T>(local.slide)};
+    return (slide + s) * scale;
+  }
+  static Enclosure<T> s_of(const LocalRay& local, T t) {
+    const Enclosure<T> scale{static_cast<T>(local.scale), static_cast<T>(local.scale)},
+        slide{static_cast<T>(local.slide), static_cast<T>(local.slide)};
+    return Enclosure<T>{t, t} / scale - slide;
+  }
+  static Enclosure<T> length2(const CertifiedRay<T>& ray) {
+    return Enclosure<T>::about(ray.length2(), 4 * roundoff<T> * ray.length2());
+  }
+
+  bool locate() {
+    const Surface& surface = traced_[static_cast<std::size_t>(hit_.surface)].surface;
+    LocalRay local;
+    if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local)) return false;
+    const CertifiedRay<T> ray(ray_.origin, surface.origin, local);
+    if (surface.ellipsoid) {
+      const EllipsoidRoots<T> roots = certified_ellipsoid(*surface.ellipsoid, ray);
+      if (!roots.meets) return false;
+      const Enclosure<T> entering = t_of(local, roots.s[0]), leaving = t_of(local, roots.s[1]);
+      const auto off = [&](const Enclosure<T>& t) {
+        return std::abs(static_cast<T>(hit_.t) - (t.low + t.high) / 2);
+      };
+      at_ = off(entering) <= off(leaving) ? entering : leaving;
+      out_.exists = out_.unique = true;
+      point_radius_ = 0.0;
+      return true;
+    }
+    const Net& net = surface.patches[static_cast<std::size_t>(hit_.patch)];
+    const Existence<T> root = prove_root(certified_piece(net, ray), dvec2(hit_.u, hit_.v));
+    if (!root.exists) return false;
+    at_ = t_of(local, root.h / length2(ray));
+    out_.exists = root.inside, out_.unique = true, out_.isolation = root.isolation;
+    // How far the parameters' error moves the point: twice the derivatives there, which hardly change.
+    const SurfaceJet jet = surface_jet(net, hit_.u, hit_.v);
+    const double off =
+        std::max({std::fabs(hit_.u - root.ball.at.x), std::fabs(hit_.v - root.ball.at.y)}) + root.ball.radius;
+    point_radius_ = 2.0 * off * (glm::length(jet.du) + glm::length(jet.dv));
+    return true;
+  }
+  double point_radius_ = 0.0;
+
+  // Also moves the root's bound down to where the first may be.
+  bool nothing_earlier() {
+    Enclosure<T> until = hit_ ? at_ : Enclosure<T>{static_cast<T>(ray_.t_max), static_cast<T>(ray_.t_max)};
+    T least = until.low;
+    for (std::size_t k = 0; k < traced_.size(); ++k)
+      if (!clears(k, until.low, least)) return false;
+    if (hit_) at_.low = least;
+    return true;
+  }
+
+  bool clears(std::size_t k, T until_t, T& least_t) {
+    const Surface& surface = traced_[k].surface;
+    LocalRay local;
+    if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local)) return true;
+    const dvec3 inverse = 1.0 / local.direction;
+    if (bounds_[k].whole && !meets_box(local, inverse, *bounds_[k].whole)) return true;
+    const CertifiedRay<T> ray(ray_.origin, surface.origin, local);
+    const T from = s_of(local, static_cast<T>(ray_.t_min)).low, until = s_of(local, until_t).high;
+    if (surface.ellipsoid) {
+      const EllipsoidRoots<T> roots = certified_ellipsoid(*surface.ellipsoid, ray);
+      if (!roots.may_meet) return true;
+      for (const Enclosure<T>& s : roots.s) {
+        if (s.high < from) continue;
+        // The hit's own root, or one that cannot be told from it, is later than `until` in part.
+        if (!(s.high >= until)) return false;
+        if (!hit_ && s.low <= until) return false;
+        least_t = std::min(least_t, t_of(local, s).low);
+      }
+      return true;
+    }
+    const Enclosure<T> l2 = length2(ray);
+    const Enclosure<T> from_h = Enclosure<T>{from, from} * l2, until_h = Enclosure<T>{until, until} * l2;
+    for (std::size_t j = 0; j < surface.patches.size(); ++j) {
+      if (bounds_[k].patches[j] && !meets_box(local, inverse, *bounds_[k].patches[j])) continue;
+      EarlierSearch<T> search(from_h.low, until_h.high, limit_);
+      const Earlier<T>& earlier = search.run(certified_piece(surface.patches[j], ray));
+      out_.pieces += earlier.pieces;
+      if (!earlier.decided || earlier.possible) return false;
+      if (earlier.least < std::numeric_limits<T>::infinity())
+        least_t = std::min(least_t, t_of(local, Enclosure<T>{earlier.least, earlier.least} / l2).low);
+    }
+    return true;
+  }
+
+  void measure() {
+    const T t = static_cast<T>(hit_.t);
+    out_.t_error = static_cast<double>(std::max(t - at_.low, at_.high - t)) * (1.0 + 0x1p-50) + 0x1p-1074;
+    // The point is the surface's at the hit's parameters, rounded there and again in the world.
+    const Surface& surface = traced_[static_cast<std::size_t>(hit_.surface)].surface;
+    if (surface.ellipsoid) {
+      point_radius_ = out_.t_error * glm::length(ray_.direction) * (1.0 + 0x1p-50);
+      const dvec3 along = hit_.point - ray_.origin;
+      // Of a point beside the ray: its distance from the exact one is that from the ray's at t, and t's.
+      LocalRay local;
+      make_local_ray(ray_.origin, ray_.direction, surface.origin, local);
+      const dvec3 here = local.base + (hit_.t / local.scale - local.slide) * local.direction;
+      point_radius_ +=
+          glm::length(hit_.point - surface.origin - here) + 0x1p-50 * (largest(along) * 0.0 + largest(here));
+    }
+    out_.point_error = point_radius_ + 0x1p-50 * (largest(hit_.point) + largest(surface.origin) +
+                                                  largest(hit_.point - surface.origin));
+  }
+};
+
+}  // namespace
+
+Certifier::Certifier(const Tracer& tracer) {
+  auto surfaces = std::make_unique<Surfaces>(Surfaces{tracer.surfaces(), {}});
+  for (const TracedSurface& traced : surfaces->traced) surfaces->bounds.push_back(bounds_of(traced.surface));
+  surfaces_ = std::move(surfaces);
+}
+Certifier::~Certifier() = default;
+
+Certificate Certifier::certify(const Ray& ray, const Hit& hit) const {
+  const Certificate first = Attempt<double>(surfaces_->traced, surfaces_->bounds, ray, hit, quick).run();
+  if (first.means == Means::interval) return first;
+  Certificate second = Attempt<long double>(surfaces_->traced, surfaces_->bounds, ray, hit, patient).run();
+  second.pieces += first.pieces;
+  return second;
+}
+
+}  // namespace rondure

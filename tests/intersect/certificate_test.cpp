@@ -1,0 +1,157 @@
+// Certificates: right where the oracle can tell, and no pixel of a shipped scene without one.
+
+#include "renderer/intersect/certificate.h"
+
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <random>
+
+#include "tests/catch.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/intersect/ray_classes.h"
+#include "tests/oracle/oracle.h"
+#include "tests/paths.h"
+#include "tests/render/staged_scene.h"
+#include "tests/surfaces/build_family.h"
+#include "tests/worst_case.h"
+
+namespace rondure {
+namespace {
+
+std::string text_of(const Ray& ray) {
+  return fmt::format("o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", ray.origin.x,
+                     ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z);
+}
+
+}  // namespace
+
+TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
+  std::mt19937_64 random(7);
+  long certified = 0, refused = 0, contradicted = 0;
+  std::string worst = "none";
+  WorstCase t, radius;
+  for (const ClosedModel& model : closed_models()) {
+    const Tracer tracer({{model.surface, Solver::newton}});
+    const Certifier certifier(tracer);
+    const long rays = std::getenv("RONDURE_SOAK") ? 3000 : 11;
+    for (long k = 0; k < rays; ++k) {
+      const auto which = static_cast<RayClass>(k % static_cast<long>(RayClass::count));
+      if (which == RayClass::from_surface) continue;
+      const Ray ray = aim(model, which, random).ray;
+      const Hit hit = tracer.closest(ray);
+      const Certificate c = certifier.certify(ray, hit);
+      ++(c ? certified : refused);
+      if (!c) continue;
+      double first = INFINITY;
+      for (const oracle::Root& root : oracle::meet(model.surface, ray).roots)
+        if (root.t >= 0.0 && root.outside <= 0x1p-50) first = std::min(first, root.t);
+      const auto describe = [&] { return model.name + ": " + text_of(ray); };
+      if (static_cast<bool>(hit) != (first < INFINITY) && c.means != Means::boundary) {
+        ++contradicted, worst = describe();
+        continue;
+      }
+      if (!hit || !(first < INFINITY)) continue;
+      // The oracle's t is a double: half an ulp of it.
+      t.add(std::fabs(hit.t - first), c.t_error + 0x1p-53 * first, describe);
+      radius.add(c.t_error, 1e-9 * (std::fabs(hit.t) + model.radius / glm::length(ray.direction)), describe);
+    }
+  }
+  WARN(certified << " certified, " << refused << " not");
+  INFO("contradicted: " << worst);
+  INFO("t: " << t.text());
+  INFO("radius: " << radius.text());
+  CHECK(contradicted == 0);
+  CHECK(t.failures() == 0);
+  // Rays are aimed where no proof can be had: within rounding of tangency and at singular points.
+  CHECK(refused < certified / 5);
+  CHECK(t.count() > certified / 3);
+}
+
+TEST_CASE("What is not so is not certified", "[certificate]") {
+  const Tracer tracer(
+      {{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton},
+       {placed(build_family(R"({"type": "sphere"})"), 0.5, dvec3(0.1, 0.0, 2.5)), Solver::newton}});
+  const Certifier certifier(tracer);
+  std::mt19937_64 random(3);
+  long proven = 0, misled = 0, rays = 0;
+  for (int k = 0; k < 200; ++k) {
+    const dvec3 origin = 4.0 * random_direction(random), target = 0.9 * random_direction(random);
+    const Ray ray{origin, target - origin};
+    const std::vector<Hit> hits = tracer.all(ray);
+    if (hits.size() < 2 || glm::dot(hits[0].normal, ray.direction) > -0.1) continue;
+    ++rays;
+    const Certificate good = certifier.certify(ray, hits[0]);
+    proven +=
+        good && good.exists && good.unique && good.first && good.t_error < 1e-10 && good.point_error < 1e-10;
+    // A later wall, no wall, a wall beside the ray, and the wall before a start past it.
+    misled += static_cast<bool>(certifier.certify(ray, hits[1]));
+    misled += static_cast<bool>(certifier.certify(ray, {}));
+    if (hits[0].surface == 0) {
+      Hit beside = hits[0];
+      beside.u = beside.u < 0.5 ? beside.u + 0.1 : beside.u - 0.1;
+      const Certificate c = certifier.certify(ray, beside);
+      misled += c && c.point_error < 1e-3;
+    }
+    Hit moved = hits[0];
+    moved.t += 1e-9;
+    misled += certifier.certify(ray, moved).t_error < 0.99e-9;
+  }
+  INFO(rays << " rays, " << proven << " proven, " << misled << " proofs of what is wrong");
+  CHECK(misled == 0);
+  CHECK(proven == rays);
+  CHECK(rays > 50);
+}
+
+TEST_CASE("Every pixel of every shipped scene is certified", "[certificate]") {
+  const bool soak = std::getenv("RONDURE_SOAK") != nullptr;
+  long rays = 0, hits = 0, unresolved = 0, by_means[4] = {0, 0, 0, 0};
+  std::string text;
+  std::mutex mutex;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() + "/scenes")) {
+    const std::string path = entry.path().string();
+    if (entry.path().extension() != ".json" || path.find("/schema/") != std::string::npos) continue;
+    const StagedScene s(read_scene(path, StagedScene::builtins(), {}));
+    const Certifier certifier(s.tracer);
+    const FilmSettings& film = s.scene.film;
+    const int width = soak ? film.width : 40, height = soak ? film.height : 30;
+    const double aspect = static_cast<double>(film.width) / film.height;
+    long missed = 0;
+    tbb::parallel_for(0, height, [&](int y) {
+      long row_rays = 0, row_hits = 0, row_unresolved = 0, row_means[4] = {0, 0, 0, 0};
+      std::string first;
+      for (int x = 0; x < width; ++x) {
+        const Ray ray =
+            camera_ray(s.scene.camera, aspect, {(x + 0.5) / width, (y + 0.5) / height}, {0.5, 0.5});
+        const Hit hit = s.tracer.closest(ray);
+        const Certificate c = certifier.certify(ray, hit);
+        ++row_rays, row_hits += static_cast<bool>(hit), row_unresolved += !c;
+        ++row_means[static_cast<int>(c.means)];
+        if (!c && first.empty())
+          first = fmt::format(
+              "\n  {} ({}, {}): {}, hit {} surface {} patch {} u {:.17g} v {:.17g} t {:.17g} exists {} "
+              "unique {} first {}",
+              path, x, y, text_of(ray), static_cast<bool>(hit), hit.surface, hit.patch, hit.u, hit.v, hit.t,
+              c.exists, c.unique, c.first);
+      }
+      const std::lock_guard lock(mutex);
+      rays += row_rays, hits += row_hits, unresolved += row_unresolved, missed += row_unresolved;
+      for (int k = 0; k < 4; ++k) by_means[k] += row_means[k];
+      if (text.size() < 6000) text += first;
+    });
+    if (missed > 0) text += fmt::format("\n{}: {} unresolved", path, missed);
+  }
+  WARN(rays << " rays, " << hits << " hits: " << by_means[0] << " by intervals, " << by_means[1]
+            << " in extended precision, " << by_means[2] << " on a boundary, " << unresolved
+            << " unresolved");
+  INFO(text);
+  CHECK(unresolved == 0);
+  CHECK(hits > rays / 4);
+}
+
+}  // namespace rondure

@@ -1,0 +1,144 @@
+// The padding of the hierarchy's boxes, by itself: every box that a ray meets in extended precision must be
+// offered by the single-precision traversal, whichever instructions Embree uses.
+
+#include <fmt/core.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+#include <set>
+
+#include "renderer/intersect/embree_scene.h"
+#include "tests/catch.h"
+#include "tests/intersect/random_direction.h"
+
+using namespace rondure;
+
+namespace {
+
+struct Probe {
+  dvec3 origin, direction;
+  double far;
+};
+
+bool remember(void* query, unsigned, unsigned leaf, float&) noexcept {
+  static_cast<std::set<unsigned>*>(query)->insert(leaf);
+  return false;
+}
+
+// Closed slabs; the last bit of 64 is a millionth of the padding.
+bool meets(const Probe& ray, const Box& box) {
+  long double enter = 0, leave = ray.far;
+  for (int k = 0; k < 3; ++k) {
+    const long double o = ray.origin[k], d = ray.direction[k];
+    if (d == 0) {
+      if (o < box.low[k] || o > box.high[k]) return false;
+      continue;
+    }
+    const long double a = (box.low[k] - o) / d, b = (box.high[k] - o) / d;
+    enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+class Layouts {
+ public:
+  double draw(double low = 0.0, double high = 1.0) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double decade(double low, double high) { return std::pow(10.0, draw(low, high)); }
+  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+
+  // Boxes within the unit sphere: points, needles, plates and bricks, of sizes from 10^-18, spread all over
+  // or crowded at a place near the rim, where a float is coarsest.
+  std::vector<Box> boxes(std::size_t count) {
+    const dvec3 crowd = 0.9 * random_direction(random_);
+    const double spread = draw() < 0.5 ? 0.9 : decade(-7.0, -1.0);
+    std::vector<Box> out;
+    for (std::size_t k = 0; k < count; ++k) {
+      const dvec3 at = spread < 0.9 ? crowd + spread * 0.05 * random_direction(random_) * draw()
+                                    : 0.9 * std::cbrt(draw()) * random_direction(random_);
+      dvec3 half(0.0);
+      const auto kind = below(4);
+      for (std::size_t j = 0; j < kind; ++j) half[static_cast<int>((j + k) % 3)] = decade(-18.0, -1.3);
+      out.push_back({at - half, at + half});
+    }
+    return out;
+  }
+
+  // Towards a box's corner, edge, face or inside, from the sphere's rim or from within, in any direction,
+  // along an axis, or nearly so; from twice the radius at most.
+  Probe probe(const std::vector<Box>& boxes) {
+    const Box& box = boxes[below(boxes.size())];
+    dvec3 target;
+    for (int k = 0; k < 3; ++k) {
+      const double part = below(2) == 0 ? std::floor(2.0 * draw()) : draw();
+      target[k] = box.low[k] + part * (box.high[k] - box.low[k]);
+      if (part == 1.0) target[k] = box.high[k];
+    }
+    Probe out;
+    dvec3 d = random_direction(random_);
+    const auto sort = below(4);
+    if (sort > 0) {
+      const int axis = static_cast<int>(below(3));
+      for (int k = 0; k < 3; ++k)
+        if (k != axis)
+          d[k] = sort == 1 ? 0.0 : sort == 2 ? d[k] * decade(-16.0, -3.0) : (below(2) == 0 ? 0.0 : d[k]);
+      if (d == dvec3(0.0)) d[axis] = 1.0;
+    }
+    out.direction = d * (1.0 + draw());
+    const double back = below(3) == 0 ? decade(-12.0, 0.0) : 1.1 / glm::length(out.direction);
+    out.origin = target - back * out.direction;
+    // To just past the target, or all the way.
+    out.far = below(2) == 0 ? back * (1.0 + 0x1p-50) : 4.0;
+    return out;
+  }
+
+ private:
+  std::mt19937_64 random_{29};
+};
+
+}  // namespace
+
+TEST_CASE("The padding covers every rounding of the traversal, with each instruction set", "[hits]") {
+  constexpr int scenes = 40, rays = 500;
+  int sets_tried = 0;
+  for (const char* isa : {"", "isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2", "isa=avx512"}) {
+    Layouts layouts;
+    long met = 0, lost = 0, offered = 0;
+    std::string worst = "none";
+    bool available = true;
+    for (int s = 0; s < scenes && available; ++s) {
+      const std::vector<Box> boxes = layouts.boxes(1 + 20 * static_cast<std::size_t>(s));
+      std::vector<LeafName> names;
+      for (unsigned b = 0; b < boxes.size(); ++b) names.push_back({0, b});
+      try {
+        const EmbreeScene scene(boxes, names, 1.0, remember, isa);
+        for (int k = 0; k < rays; ++k) {
+          const Probe ray = layouts.probe(boxes);
+          std::set<unsigned> seen;
+          scene.visit_all(ray.origin, ray.direction, ray.far, &seen);
+          offered += static_cast<long>(seen.size());
+          for (unsigned b = 0; b < boxes.size(); ++b) {
+            if (!meets(ray, boxes[b])) continue;
+            ++met;
+            if (seen.count(b) != 0) continue;
+            ++lost;
+            worst = fmt::format(
+                "o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g}), far {:.17g}", ray.origin.x,
+                ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.far);
+          }
+        }
+      } catch (const std::runtime_error&) {
+        available = false;  // not on this processor
+      }
+    }
+    if (!available) continue;
+    ++sets_tried;
+    INFO(isa << ": " << met << " boxes met, " << offered << " offered; lost: " << worst);
+    CHECK(lost == 0);
+    CHECK(met > scenes * rays / 2);
+    // The traversal does look: most boxes of a scene are not offered.
+    CHECK(offered < 400L * scenes * rays / 4);
+  }
+  CHECK(sets_tried >= 2);
+}

@@ -1,0 +1,79 @@
+#include "tests/intersect/verdict.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "renderer/intersect/local_ray.h"
+
+namespace rondure {
+
+Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hits, double radius,
+              double band, double doubt) {
+  const double longest = largest(ray.direction);
+  const double speed = longest * glm::length(ray.direction / longest), unit = radius / speed;
+  const auto rounding = [&](double t) { return 0x1p-50 * (std::fabs(t) + unit); };
+  const oracle::Meeting meeting = oracle::meet(surface, ray);
+  // Neighbours' roots at a seam differ by the ray's distance from it, which rounding makes, over the cosine.
+  const std::vector<oracle::Crossing> found = oracle::crossings(meeting, 0x1p-44 * unit);
+
+  Verdict out;
+  out.certified = !meeting.exhausted;
+  // A root moves along the ray by band / cosine, and near a touching place by the square root of band.
+  const auto near_graze = [&](double t) {
+    for (const oracle::Graze& g : meeting.grazes)
+      if (g.depth <= band && std::fabs(g.t - t) <= 4.0 * std::sqrt(band * radius) / speed) return true;
+    return false;
+  };
+  // A ray through a singular corner, or in the tangent plane of a vertex, may take more pieces than there is
+  // patience for: then nothing is said.
+  if (meeting.exhausted) return out;
+  std::vector<int> told(found.size(), 0);
+  std::vector<bool> doubtful(found.size(), false);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const oracle::Crossing& c = found[k];
+    const bool beside = c.outside > 0.0;  // within rounding of patches, and in none
+    const bool start = std::fabs(c.t - ray.t_min) <= doubt || std::fabs(c.t - ray.t_max) <= doubt;
+    doubtful[k] = beside || start || c.touches || c.multiplicity != 1 || near_graze(c.t);
+    out.in_band = out.in_band || (doubtful[k] && (!beside || c.touches || c.multiplicity != 1));
+    out.certified = out.certified && c.certified;
+  }
+  for (const Hit& hit : hits) {
+    std::size_t best = found.size();
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const double off = std::max({found[k].low - hit.t, hit.t - found[k].high, 0.0});
+      const double allowed =
+          hit.t_error + rounding(hit.t) + (doubtful[k] ? 4.0 * std::sqrt(band * radius) / speed : 0.0);
+      // Its own before a doubtful one that is near.
+      if (off <= allowed && (best == found.size() || (told[k] == 0 && told[best] > 0) ||
+                             std::fabs(found[k].t - hit.t) < std::fabs(found[best].t - hit.t)))
+        best = k;
+    }
+    if (best < found.size()) {
+      ++told[best];
+    } else if (near_graze(hit.t)) {
+      out.in_band = true;
+    } else {
+      out.right = false;
+      out.text +=
+          fmt::format(" a hit at t = {:.17g} (error {:.2g}, patch {}, u {:.17g}, v {:.17g}) that is none;",
+                      hit.t, hit.t_error, hit.patch, hit.u, hit.v);
+    }
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const oracle::Crossing& c = found[k];
+    const bool ahead = c.t >= ray.t_min && c.t <= ray.t_max;
+    if (doubtful[k] || told[k] == (ahead ? 1 : 0)) continue;
+    out.right = false;
+    out.text +=
+        fmt::format(" crossing at t = {:.17g} (patch {} of {}, outside {:.2g}, cosine {:.3g}) told {} times;",
+                    c.t, c.patches.front(), c.patches.size(), c.outside, c.cosine, told[k]);
+  }
+  if (!out.right)
+    for (const oracle::Graze& g : meeting.grazes)
+      out.text += fmt::format(" graze at t = {:.17g}, depth {:.3g} radii;", g.t, g.depth / radius);
+  return out;
+}
+
+}  // namespace rondure

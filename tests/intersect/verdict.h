@@ -1,0 +1,25 @@
+// What the tracer says of a ray, judged by the oracle.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/intersect/tracer.h"
+#include "tests/oracle/oracle.h"
+
+namespace rondure {
+
+struct Verdict {
+  bool right = true;
+  bool in_band = false;  // some of it was rounding's choice: tangency, or the ray's start on a wall
+  bool certified = true;
+  std::string text;  // what is wrong
+};
+
+// Each certain crossing of a closed surface must be told exactly once, with t within its claimed error, and
+// nothing else. `band`: distance from tangency in scene units within which either answer is right. Crossings
+// within `doubt` (in t) of the ray's t_min are not asked for.
+Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hits, double radius,
+              double band, double doubt);
+
+}  // namespace rondure
