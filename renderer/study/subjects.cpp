@@ -43,7 +43,7 @@ const std::vector<Subject>& subjects() {
       tiling("octahedron_quads"),
       tiling("icosahedron_quads"),
       tiling("rhombicuboctahedron"),
-      {"quartic_triangles", R"({ "type": "iss" })", false},
+      {"iss_triangles", R"({ "type": "iss" })", false},
       {"iss_degenerate", R"({ "type": "iss", "form": "degenerate" })", false},
       {"iss_quadrilaterals", R"({ "type": "iss", "form": "quadrilaterals" })", false},
       {"sphere_cap", R"({ "type": "sphere_cap", "z_max": 0.5 })", false},
