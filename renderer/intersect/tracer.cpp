@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "renderer/intersect/query.h"
+#include "renderer/intersect/short_ray.h"
 #include "renderer/intersect/sphere_packets.h"
 #include "renderer/intersect/twins.h"
 #include "renderer/parallel/parallel_for.h"
@@ -43,6 +44,10 @@ struct Tracer::Implementation {
   }
 
   Hit closest(const Ray& ray) const {
+    if (is_short(ray)) {
+      const Hit hit = closest(lengthened(ray));
+      return can_shorten(hit) ? shortened(hit) : Hit{};
+    }
     Query q = make_query(ray, Mode::closest);
     visit(q);
     if (q.best) finish(q);
@@ -155,6 +160,8 @@ Hit Tracer::closest(const Ray& ray) const noexcept {
 }
 
 bool Tracer::occluded(const Ray& ray) const noexcept {
+  // Beyond the largest t there is nothing that a short ray could be kept from.
+  if (is_short(ray)) return static_cast<bool>(implementation_->closest(ray));
   Query q = implementation_->make_query(ray, Mode::any);
   return implementation_->visit(q);
 }
@@ -180,6 +187,11 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded) const
 
 std::vector<Hit> Tracer::all(const Ray& ray) const {
   std::vector<Hit> hits;
+  if (is_short(ray)) {
+    for (const Hit& hit : all(lengthened(ray)))
+      if (can_shorten(hit)) hits.push_back(shortened(hit));
+    return hits;
+  }
   std::vector<int> signs;
   Query q = implementation_->make_query(ray, Mode::all);
   q.hits = &hits, q.signs = &signs;

@@ -6,6 +6,7 @@
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
+#include "tests/intersect/placed.h"
 #include "tests/intersect/sphere_reference.h"
 #include "tests/surfaces/build_family.h"
 
@@ -53,6 +54,33 @@ TEST_CASE("The length of the direction changes t alone", "[hits]") {
     CHECK(hit.point == unit.point);
     CHECK(hit.t * scale == unit.t);
   }
+}
+
+TEST_CASE("A direction of denormal length meets what it reaches at a t that is a number", "[hits]") {
+  const Solver solver = GENERATE(Solver::newton, Solver::clipping, Solver::quadric);
+  const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  // So small and so near that the largest double is steps enough.
+  const Tracer tracer({{placed(cube, 0x1p-40, dvec3(0.0)), solver}});
+  const dvec3 origin = 0x1p-40 * dvec3(0.25, 0.5, -3.0), along(0.0, 0.0, 1.0);
+  const int exponent = GENERATE(-1022, -1060);
+  const dvec3 step(0.0, 0.0, std::ldexp(1.0, exponent));
+  const Hit unit = tracer.closest({origin, along}), hit = tracer.closest({origin, step});
+  REQUIRE(unit);
+  REQUIRE(hit);
+  CHECK(hit.point == unit.point);
+  CHECK(std::ldexp(hit.t, exponent) == unit.t);
+  CHECK(tracer.occluded({origin, step}));
+  const std::vector<Hit> all = tracer.all({origin, step});
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].t == hit.t);
+  CHECK_FALSE(tracer.closest({origin, step, 0.0, 0.5 * hit.t}));
+  CHECK_FALSE(tracer.occluded({origin, step, 2.0 * all[1].t}));
+  Hit batch;
+  const Ray ray{origin, step};
+  tracer.closest({&ray, 1}, {&batch, 1});
+  CHECK(batch.t == hit.t);
+  // From here t would be beyond the largest double.
+  CHECK_FALSE(tracer.closest({dvec3(0.0, 0.0, -8.0), step}));
 }
 
 TEST_CASE("t_min and t_max bound the hits", "[hits]") {
