@@ -1,0 +1,167 @@
+// No ray is lost and none is counted twice: a line meets a closed surface an even number of times, a ray from
+// inside an odd number, and every crossing is the oracle's.
+
+#include <fmt/core.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "renderer/intersect/local_ray.h"
+#include "renderer/intersect/solve_leaf.h"
+#include "tests/catch.h"
+#include "tests/intersect/ray_classes.h"
+#include "tests/intersect/sphere_reference.h"
+#include "tests/intersect/verdict.h"
+
+using namespace rondure;
+
+namespace {
+
+constexpr auto classes = static_cast<std::size_t>(RayClass::count);
+constexpr long block = 220;     // rays of one seed
+constexpr long sample = 16384;  // one ray in so many is judged whatever its parity
+
+struct Tally {
+  std::array<long, classes> rays{}, hits{}, in_band{}, judged{};
+  long wrong = 0, uncertified = 0, at_edges = 0;
+  long exhausted = 0;  // rays on which a search gave up: all are judged
+  std::string text;    // of some of what is wrong
+
+  void merge(const Tally& o) {
+    for (std::size_t k = 0; k < classes; ++k)
+      rays[k] += o.rays[k], hits[k] += o.hits[k], in_band[k] += o.in_band[k], judged[k] += o.judged[k];
+    wrong += o.wrong, uncertified += o.uncertified, at_edges += o.at_edges, exhausted += o.exhausted;
+    if (text.size() < 4000) text += o.text;
+  }
+};
+
+std::string text_of(const Ray& ray) {
+  return fmt::format("o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", ray.origin.x,
+                     ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z);
+}
+
+// Whether `closest` and `occluded` say what `all` says.
+bool agree(const Tracer& tracer, const Ray& ray, const std::vector<Hit>& all) {
+  const Hit first = tracer.closest(ray);
+  if (tracer.occluded(ray) != static_cast<bool>(first) || static_cast<bool>(first) == all.empty())
+    return false;
+  return all.empty() || (first.t == all.front().t && first.patch == all.front().patch);
+}
+
+void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long index,
+           std::mt19937_64& random, Tally& tally) {
+  const AimedRay aimed = aim(model, which, random);
+  const auto c = static_cast<std::size_t>(which);
+  const std::size_t given_up = thread_counts().search.exhausted;
+  const std::vector<Hit> hits = tracer.all(aimed.ray);
+  const bool gave_up = thread_counts().search.exhausted != given_up;
+  tally.exhausted += gave_up;
+  ++tally.rays[c];
+  tally.hits[c] += static_cast<long>(hits.size());
+  const bool same = index % 8 != 0 || agree(tracer, aimed.ray, hits);
+  bool odd = aimed.parity >= 0 && hits.size() % 2 != static_cast<std::size_t>(aimed.parity);
+  bool known = false;
+  if (model.sphere && which != RayClass::from_surface) {
+    const SphereReference exact =
+        sphere_reference(aimed.ray.origin, aimed.ray.direction / largest(aimed.ray.direction),
+                         model.surface.origin, model.radius);
+    known = std::fabs(exact.clearance) <= model.band;
+    odd = hits.size() !=
+          (exact.clearance < 0.0 ? static_cast<std::size_t>((exact.t[0] >= 0.0) + (exact.t[1] >= 0.0)) : 0);
+    tally.in_band[c] += odd && known;
+  }
+  const bool judged = (odd && !known) || gave_up || index % sample == 0;
+  if (!judged && same) return;
+  const double band = model.band * model.radius;
+  // A ray that is told to start on the surface is judged beyond its start alone.
+  Ray ray = aimed.ray;
+  if (ray.start.surface >= 0) ray.start = {};
+  const Verdict v = judge(model.surface, ray, hits, model.radius, band, aimed.doubt);
+  ++tally.judged[c];
+  tally.in_band[c] += odd && !known && v.right && v.in_band;
+  tally.uncertified += !v.certified && !v.in_band;
+  // Where every crossing is the oracle's and their number is still of the wrong parity, the ray passes a
+  // sharp edge of the surface to rounding: in on one side of it, and out beside it, or the other way round.
+  tally.at_edges += odd && !known && v.right && v.certified && !v.in_band;
+  if (same && v.right) return;
+  ++tally.wrong;
+  if (tally.text.size() < 1000)
+    tally.text +=
+        fmt::format("\n{}, {}, {} hits for parity {}{}: {}:{}", model.name, name_of(which), hits.size(),
+                    aimed.parity, same ? "" : ", closest or occluded differ", text_of(aimed.ray), v.text);
+}
+
+Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint64_t seed) {
+  const Tracer tracer({{model.surface, solver}});
+  return tbb::parallel_reduce(
+      tbb::blocked_range<long>(0, std::max(1L, rays / block), 1), Tally{},
+      [&](const tbb::blocked_range<long>& range, Tally tally) {
+        for (long b = range.begin(); b < range.end(); ++b) {
+          std::mt19937_64 random(seed * 1'000'003u + static_cast<std::uint64_t>(b));
+          for (long k = 0; k < block; ++k)
+            check(model, tracer, static_cast<RayClass>(k % static_cast<long>(classes)), b * block + k, random,
+                  tally);
+        }
+        return tally;
+      },
+      [](Tally a, const Tally& b) { return a.merge(b), a; });
+}
+
+double effort() {
+#ifdef __SANITIZE_ADDRESS__
+  return 0.02;
+#else
+  return std::getenv("RONDURE_SOAK") ? 50000.0 : 1.0;
+#endif
+}
+
+void require_clean(const Tally& tally, const std::string& what) {
+  std::string table;
+  long rays = 0, judged = 0;
+  for (std::size_t k = 0; k < classes; ++k) {
+    table += fmt::format("\n  {:<17} {:>12} rays {:>12} hits {:>9} in band",
+                         name_of(static_cast<RayClass>(k)), tally.rays[k], tally.hits[k], tally.in_band[k]);
+    rays += tally.rays[k], judged += tally.judged[k];
+  }
+  WARN(what << ": " << rays << " rays, " << judged << " judged by the oracle (" << tally.uncertified
+            << " of them beyond its proofs), " << tally.at_edges << " at sharp edges, " << tally.exhausted
+            << " with a search given up" << table);
+  INFO(tally.text);
+  CHECK(tally.wrong == 0);
+  CHECK(tally.at_edges <= rays / 10'000);
+  for (std::size_t k = 0; k < classes; ++k) CHECK(tally.hits[k] > tally.rays[k] / 4);
+}
+
+}  // namespace
+
+TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
+  struct Share {
+    Solver solver;
+    const char* name;
+    double rays;  // of all the models together
+  };
+  const Share share =
+      GENERATE(Share{Solver::newton, "newton", 3e4}, Share{Solver::quadric, "quadric", 3e4},
+               Share{Solver::radial, "radial", 1e4}, Share{Solver::clipping, "clipping", 1e4});
+  Tally tally;
+  std::uint64_t seed = 1;
+  const auto& models = closed_models();
+  const double each = share.rays * effort() / static_cast<double>(models.size());
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const ClosedModel& model = models[k];
+    const auto rays = [&](double part) { return static_cast<long>(part * each); };
+    tally.merge(check_model(model, share.solver, rays(0.8), seed++));
+    // Every model small or large, and near or far; which of these, changes from one to the next.
+    const double scale = k % 5 == 0   ? 1e-40
+                         : k % 2 == 0 ? 1e-6
+                                      : 1e6,
+                 distance = std::pow(10.0, static_cast<double>(k % 8));
+    tally.merge(
+        check_model(placed(model, scale, scale * model.surface.origin), share.solver, rays(0.1), seed++));
+    const dvec3 center = distance * model.radius * dvec3(0.48, -0.6, 0.64);
+    tally.merge(check_model(placed(model, 1.0, center), share.solver, rays(0.1), seed++));
+  }
+  require_clean(tally, share.name);
+}
