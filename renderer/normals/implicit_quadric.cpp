@@ -47,13 +47,12 @@ std::optional<std::vector<double>> only_null_vector(const std::vector<std::vecto
   return real;
 }
 
-bool is_round(const dmat3& a, double tolerance) {
-  const double mean = (a[0][0] + a[1][1] + a[2][2]) / 3.0;
-  if (!(std::abs(mean) > 0.0)) return false;
-  double off = 0.0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(a[i][j] - (i == j ? mean : 0.0)));
-  return off <= tolerance * std::abs(mean);
+// The quadric, if all of the points lie on it.
+std::optional<ImplicitQuadric> confirmed(const ImplicitQuadric& q, const std::vector<dvec3>& points) {
+  const double extent = q.scale + glm::length(q.centre);
+  for (const dvec3& p : points)
+    if (!(std::abs(q.distance(p)) <= 64.0 * epsilon * extent)) return {};
+  return q;
 }
 
 }  // namespace
@@ -105,24 +104,31 @@ std::optional<ImplicitQuadric> quadric_through(const std::vector<Net>& patches) 
   if (const auto plane = only_null_vector(rows)) {
     q.b = 0.5 * dvec3((*plane)[0], (*plane)[1], (*plane)[2]);
     q.c = (*plane)[3];
-  } else {
-    for (std::size_t k = 0; k < fitted; ++k) {
-      const dvec3 y = local(points[k]);
-      rows[k] = {y.x * y.x,     y.y * y.y, y.z * y.z, 2 * y.x * y.y, 2 * y.y * y.z,
-                 2 * y.z * y.x, 2 * y.x,   2 * y.y,   2 * y.z,       1.0};
-    }
-    const auto found = only_null_vector(rows);
-    if (!found) return {};
-    const std::vector<double>& f = *found;
-    q.a = dmat3(f[0], f[3], f[5], f[3], f[1], f[4], f[5], f[4], f[2]);
-    q.b = dvec3(f[6], f[7], f[8]);
-    q.c = f[9];
-    if (is_round(q.a, 1e-12)) q.a = dmat3((f[0] + f[1] + f[2]) / 3.0);
+    return confirmed(q, points);
   }
-  const double extent = q.scale + glm::length(q.centre);
-  for (const dvec3& p : points)
-    if (!(std::abs(q.distance(p)) <= 64.0 * epsilon * extent)) return {};
-  return q;
+  // Five unknowns are told from a small piece of a sphere where ten are not.
+  for (std::size_t k = 0; k < fitted; ++k) {
+    const dvec3 y = local(points[k]);
+    rows[k] = {glm::dot(y, y), 2 * y.x, 2 * y.y, 2 * y.z, 1.0};
+  }
+  if (const auto sphere = only_null_vector(rows)) {
+    q.a = dmat3((*sphere)[0]);
+    q.b = dvec3((*sphere)[1], (*sphere)[2], (*sphere)[3]);
+    q.c = (*sphere)[4];
+    return confirmed(q, points);
+  }
+  for (std::size_t k = 0; k < fitted; ++k) {
+    const dvec3 y = local(points[k]);
+    rows[k] = {y.x * y.x,     y.y * y.y, y.z * y.z, 2 * y.x * y.y, 2 * y.y * y.z,
+               2 * y.z * y.x, 2 * y.x,   2 * y.y,   2 * y.z,       1.0};
+  }
+  const auto found = only_null_vector(rows);
+  if (!found) return {};
+  const std::vector<double>& f = *found;
+  q.a = dmat3(f[0], f[3], f[5], f[3], f[1], f[4], f[5], f[4], f[2]);
+  q.b = dvec3(f[6], f[7], f[8]);
+  q.c = f[9];
+  return confirmed(q, points);
 }
 
 }  // namespace rondure

@@ -75,6 +75,13 @@ TEST_CASE("quadrics are found where there are some", "[normals]") {
     }
   }
   CHECK_FALSE(quadric_through(built("gc1_cubic").patches));
+  // A piece of the sphere on which ten unknowns are not told from rounding.
+  const StagedScene piece(R"({ "objects": [ { "type": "circular_quad",
+    "corners": [[1, 0, 0], [1, 0.02, 0], [1, 0.02, 0.02], [1, 0, 0.03]] } ] })");
+  const auto sphere = quadric_through(piece.tracer.surfaces()[0].surface.patches);
+  REQUIRE(sphere);
+  CHECK(glm::length(glm::normalize(sphere->gradient({1, 0, 0})) - dvec3(1, 0, 0)) ==
+        Approx(0.0).margin(1e-12));
   // An ellipsoid, and a plane.
   const StagedScene s(R"({ "objects": [ { "type": "sphere_tiling", "transform": [ { "scale": [2, 3, 1] } ] },
     { "type": "bezier", "patches": [ { "degree": [1, 1], "net": [ [[0,0,1,1],[0,1,1,1]], [[1,0,1,1],[1,1,1,1]] ] } ] } ] })");
