@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <glm/matrix.hpp>
-#include <new>
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/bernstein.h"
+#include "renderer/plugin/call_plugin.h"
 
 namespace rondure {
 namespace {
@@ -71,23 +71,10 @@ std::string defect_of(const Surface& surface) {
 }  // namespace
 
 Surface build_surface(const SurfaceFamily& family, Params& params) {
-  const auto refuse = [&](const std::string& text) {
-    params.fail(fmt::format("the family \"{}\" {}", printable(family.name), text));
-  };
-  Surface surface;
-  try {
-    surface = family.build(params);
-  } catch (const SceneError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    refuse(fmt::format("failed: {}", error.what()));
-  } catch (...) {
-    refuse("failed with an exception of unknown type");
-  }
+  const std::string who = fmt::format("the family \"{}\"", printable(family.name));
+  Surface surface = call_plugin(params, who, [&] { return family.build(params); });
   const std::string defect = defect_of(surface);
-  if (!defect.empty()) refuse(fmt::format("made a surface that {}", defect));
+  if (!defect.empty()) params.fail(fmt::format("{} made a surface that {}", who, defect));
   return surface;
 }
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
-#include <new>
 
 #include "renderer/api/utf8.h"
+#include "renderer/plugin/call_plugin.h"
 #include "renderer/scene/default_view.h"
 #include "renderer/scene/json_reader.h"
 #include "renderer/scene/object_reader.h"
@@ -35,22 +35,9 @@ SamplingSettings read_sampling(Params params) {
 }
 
 std::unique_ptr<Integrator> make_integrator(const IntegratorFactory& factory, Params& params) {
-  const auto refuse = [&](const std::string& text) {
-    params.fail(fmt::format("the integrator \"{}\" {}", factory.name, text));
-  };
-  std::unique_ptr<Integrator> integrator;
-  try {
-    integrator = factory.create(params);
-  } catch (const SceneError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    refuse(fmt::format("failed: {}", error.what()));
-  } catch (...) {
-    refuse("failed with an exception of unknown type");
-  }
-  if (!integrator) refuse("made nothing");
+  const std::string who = fmt::format("the integrator \"{}\"", factory.name);
+  std::unique_ptr<Integrator> integrator = call_plugin(params, who, [&] { return factory.create(params); });
+  if (!integrator) params.fail(who + " made nothing");
   return integrator;
 }
 

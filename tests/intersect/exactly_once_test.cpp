@@ -25,14 +25,14 @@ constexpr long sample = 16384;  // one ray in so many is judged whatever its par
 
 struct Tally {
   std::array<long, classes> rays{}, hits{}, in_band{}, judged{};
-  long wrong = 0, uncertified = 0, at_edges = 0;
+  long wrong = 0, uncertified = 0, touches = 0;
   long exhausted = 0;  // rays on which a search gave up: all are judged
   std::string text;    // of some of what is wrong
 
   void merge(const Tally& o) {
     for (std::size_t k = 0; k < classes; ++k)
       rays[k] += o.rays[k], hits[k] += o.hits[k], in_band[k] += o.in_band[k], judged[k] += o.judged[k];
-    wrong += o.wrong, uncertified += o.uncertified, at_edges += o.at_edges, exhausted += o.exhausted;
+    wrong += o.wrong, uncertified += o.uncertified, touches += o.touches, exhausted += o.exhausted;
     if (text.size() < 4000) text += o.text;
   }
 };
@@ -82,9 +82,9 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   ++tally.judged[c];
   tally.in_band[c] += odd && !known && v.right && v.in_band;
   tally.uncertified += !v.certified && !v.in_band;
-  // Where every crossing is the oracle's and their number is still of the wrong parity, the ray passes a
-  // sharp edge of the surface to rounding: in on one side of it, and out beside it, or the other way round.
-  tally.at_edges += odd && !known && v.right && v.certified && !v.in_band;
+  // Where every crossing is the oracle's and their number is still of the wrong parity, the ray touches an
+  // edge or a vertex to rounding, where the verdict, which looks at patches alone, sees no tangency.
+  tally.touches += odd && !known && v.right && v.certified && !v.in_band;
   if (same && v.right) return;
   ++tally.wrong;
   if (tally.text.size() < 1000)
@@ -126,11 +126,11 @@ void require_clean(const Tally& tally, const std::string& what) {
     rays += tally.rays[k], judged += tally.judged[k];
   }
   WARN(what << ": " << rays << " rays, " << judged << " judged by the oracle (" << tally.uncertified
-            << " of them beyond its proofs), " << tally.at_edges << " at sharp edges, " << tally.exhausted
-            << " with a search given up" << table);
+            << " of them beyond its proofs), " << tally.touches << " touching an edge or a vertex, "
+            << tally.exhausted << " with a search given up" << table);
   INFO(tally.text);
   CHECK(tally.wrong == 0);
-  CHECK(tally.at_edges <= rays / 10'000);
+  CHECK(tally.touches <= rays / 10'000);
   for (std::size_t k = 0; k < classes; ++k) CHECK(tally.hits[k] > tally.rays[k] / 4);
 }
 
