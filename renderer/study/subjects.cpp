@@ -15,6 +15,14 @@ Subject tiling(const std::string& name, const std::string& more = "") {
   return {name, R"({ "type": "sphere_tiling", "topology": ")" + name + "\"" + more + " }", true};
 }
 
+// A patch of another quadric, of semi-axes 1, 0.8 and 0.6.
+Subject quadric(const std::string& name, const std::string& kind, const std::string& patches) {
+  return {name,
+          R"({ "type": "quadric_patch", "quadric": ")" + kind + R"(", "semi_axes": [1, 0.8, 0.6], )" +
+              patches + " }",
+          false};
+}
+
 // x^2 + y^2 = z^2 as a quadratic triangle with its tip at a corner: no limit there.
 constexpr const char* cone_corner =
     R"({ "type": "bezier", "patches": [ { "kind": "triangle", "degree": 2, "net": {
@@ -28,6 +36,37 @@ constexpr const char* cone_side =
   [ [1, 0, 0, 1], [0, 0, 1, 1] ],
   [ [0.70710678118654752, 0.70710678118654752, 0, 0.70710678118654752], [0, 0, 0.70710678118654752, 0.70710678118654752] ],
   [ [0, 1, 0, 1], [0, 0, 1, 1] ] ] } ] })";
+
+// The quadratic preimage of a patch of a hyperboloid of one sheet, two of its points one: a collapsed side.
+constexpr const char* collapsed_preimage = R"("preimage": [ { "degree": [1, 1], "net": [
+  [ [1, 0, 0.75, 0.625], [1, 0, 0.75, 0.625] ],
+  [ [0.75, 0.75, 1, -0.125], [0.75, 0.75, -0.125, 1] ] ] } ])";
+
+// A corner of 180 degrees whose sides are others than u and v.
+constexpr const char* hemisphere_part =
+    R"({ "type": "composed_patch", "of": { "type": "sphere_tiling", "topology": "hemispheres" },
+  "domain": { "kind": "triangle", "degree": 1, "net": { "100": [0, 0], "010": [0.75, 0.125], "001": [0.25, 0.625] } } })";
+
+constexpr const char* small_circles =
+    R"({ "type": "spherical_quad", "corners": [[-1, -2, -1], [1, -2, -1], [1, -2, 1], [-1, -2, 1]],
+  "arcs": [null, { "through": [2, -2, 0] }, null, { "through": [-2, -2, 0] }] })";
+
+constexpr const char* quadratic_triangle =
+    R"({ "type": "circular_triangle", "construction": "quadratic",
+  "corners": [[0.8, 0, -0.6], [-0.66666666666666663, -0.66666666666666663, -0.33333333333333331],
+              [-0.66666666666666663, 0.66666666666666663, -0.33333333333333331]],
+  "arcs": [{ "plane": [2, -4, 1, 1] }, { "plane": [1, 0, -0.5, -0.5] }, { "plane": [2, 4, 1, 1] }] })";
+
+constexpr const char* bspline = R"({ "type": "spherical_bspline", "degree": [2, 1],
+  "knots": [[0, 0, 0, 1, 2, 2, 2], [0, 0, 0.5, 1, 1]], "net": [
+    [[2, -1.5, -0.75, 0.125], [2, -1.5, 0, 0], [2, -1.5, 0.75, -0.125]],
+    [[2, -0.5, -0.75, 0], [2, -0.5, 0, 0], [2, -0.5, 0.75, 0]],
+    [[2, 0.5, -0.75, -0.125], [2, 0.5, 0, 0], [2, 0.5, 0.75, 0.125]],
+    [[2, 1.5, -0.75, -0.375], [2, 1.5, 0, 0], [2, 1.5, 0.75, 0.375]]] })";
+
+constexpr const char* gc_triangles = R"({ "type": "gc_complex", "degree": 4,
+  "complex": { "polygons": [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]] },
+  "vertices": [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]] })";
 
 }  // namespace
 
@@ -43,14 +82,41 @@ const std::vector<Subject>& subjects() {
       tiling("octahedron_quads"),
       tiling("icosahedron_quads"),
       tiling("rhombicuboctahedron"),
+      {"rhombicuboctahedron_42",
+       R"({ "type": "sphere_tiling", "topology": "rhombicuboctahedron", "reading": 42 })", true},
       {"iss_triangles", R"({ "type": "iss" })", false},
       {"iss_degenerate", R"({ "type": "iss", "form": "degenerate" })", false},
       {"iss_quadrilaterals", R"({ "type": "iss", "form": "quadrilaterals" })", false},
+      {"iss_closed", R"({ "type": "iss", "octants": { "degree": 3, "interior": 1 }, "form": "degenerate" })",
+       false},
       {"sphere_cap", R"({ "type": "sphere_cap", "z_max": 0.5 })", false},
       {"stereographic_patch", R"({ "type": "stereographic_patch" })", false},
+      {"hemisphere_part", hemisphere_part, false},
+      {"spherical_quad", small_circles, false},
+      {"circular_quad",
+       R"({ "type": "circular_quad", "corners": [[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]] })", false},
+      {"circular_triangle",
+       R"({ "type": "circular_triangle", "corners": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] })", false},
+      {"quadratic_triangle", quadratic_triangle, false},
+      {"projected_net",
+       R"({ "type": "projected_net", "patches": [ { "degree": [1, 1],
+         "net": [[[1, 0, 0, 0], [1, 0, 1, 0]], [[1, 1, 0, 0], [1, 1, 1, 0]]] } ] })",
+       false},
+      {"spherical_bspline", bspline, false},
+      quadric("ellipsoid_hemispheres", "ellipsoid",
+              R"("surface": { "type": "sphere_tiling", "topology": "hemispheres" })"),
+      quadric("ellipsoid_octants", "ellipsoid", R"("surface": { "type": "sphere_octant" })"),
+      quadric("two_sheets", "two_sheets", R"("surface": { "type": "sphere_cap", "z_max": -0.35 })"),
+      quadric("one_sheet", "one_sheet", collapsed_preimage),
+      quadric("elliptic_paraboloid", "elliptic_paraboloid",
+              R"("surface": { "type": "sphere_octant", "octants": [4, 5, 6, 7] })"),
+      quadric("hyperbolic_paraboloid", "hyperbolic_paraboloid", R"("rulings": [[-1, 1], [-1, 1]])"),
       {"gc1_sphere", R"({ "type": "gc_octahedron", "basis": "sphere" })", true},
       {"gc1_cubic", R"({ "type": "gc_octahedron" })", false},
       {"gc1_rational", R"({ "type": "gc_octahedron", "basis": "rational" })", false},
+      {"gc_cube", R"({ "type": "gc_complex" })", false},
+      {"gc_torus", R"({ "type": "gc_complex", "complex": "torus" })", false},
+      {"gc_triangles", gc_triangles, false},
       {"cross_caps",
        R"({ "type": "gc_octahedron", "control_points": { "h6": [-2, 1, 0], "h5": [0, 0, 0], "h7": [1, -2, -1] } })",
        false},

@@ -1,5 +1,5 @@
-// The surfaces that the studies look at: every way to patch a sphere that ships, and what degenerates
-// otherwise.
+// The surfaces that the studies look at: every family that ships, every way to patch a sphere, and what
+// degenerates otherwise.
 #pragma once
 
 #include <string>
