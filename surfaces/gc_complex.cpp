@@ -95,7 +95,8 @@ Surface build(Params& params) {
   }
   Surface surface =
       blended_surface(params, choice.complex, basis, read_blend_points(params, basis.names, defaults));
-  surface.notes = notes_of(space);
+  const std::vector<Note> notes = notes_of(space);
+  surface.notes.insert(surface.notes.begin(), notes.begin(), notes.end());
   return surface;
 }
 

@@ -30,8 +30,8 @@ Defaults hierarchy_points() {
   return points;
 }
 
-// All eight patches are regular, which the paper thought impossible: it is proved by
-// renderer/complex/exact_regularity.h.
+// All eight patches are regular, which the paper thought impossible: renderer/continuity/exact_regularity.h
+// proves it.
 Defaults rational_points() {
   return {at(0, -2, 1), at(1, 0, -2), at(-2, 1, 0), at(7, 0, -4), at(0, -4, 7),
           at(-4, 7, 0), at(2, 0, 0),  at(0, 2, 0),  at(0, 0, 2)};
@@ -56,8 +56,7 @@ Surface build(Params& params) {
   const Defaults defaults = name == "splines"        ? cube_points(basis, degree)
                             : name == "hierarchical" ? hierarchy_points()
                                                      : rational_points();
-  Surface surface =
-      blended_surface(params, complex, basis, read_blend_points(params, basis.names, defaults));
+  Surface surface = blended_surface(params, complex, basis, read_blend_points(params, basis.names, defaults));
   surface.notes.push_back({"dimension", static_cast<double>(basis.functions.size()),
                            "of the space of geometrically continuous functions"});
   return surface;

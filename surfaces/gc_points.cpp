@@ -81,8 +81,7 @@ BlendPoints read_blend_points(Params& params, const std::vector<std::string>& na
 
 Surface blended_surface(Params& params, const SurfaceComplex& complex, const GcBasis& basis,
                         const BlendPoints& points) {
-  std::vector<Net> nets;
-  for (const ExactPatch& patch : blend(basis, points.points, points.weighted)) nets.push_back(net_of(patch));
+  auto [nets, roundings] = nets_of(blend(basis, points.points, points.weighted));
   for (std::size_t k = 0; k < nets.size(); ++k) {
     if (bounds_of(nets[k])) continue;
     const std::vector<dvec4>& net = points_of(nets[k]);
@@ -94,7 +93,10 @@ Surface blended_surface(Params& params, const SurfaceComplex& complex, const GcB
     if (params.has("control_points")) params.fail("control_points", text);
     params.fail(text);
   }
-  return oriented_surface(complex, std::move(nets));
+  Surface surface = oriented_surface(complex, std::move(nets));
+  surface.notes.push_back({"rounded", static_cast<double>(roundings),
+                           "coordinates of its nets that are rounded, before any transform"});
+  return surface;
 }
 
 ParameterDoc control_points_doc(const std::string& default_value, const std::string& meaning) {

@@ -43,7 +43,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("/json/pointer=value")
       ->allow_extra_args(false);
   command
-      .add_option("--solver", options.overrides.solver, "Solver of every object: auto, newton, clipping, radial or quadric")
+      .add_option("--solver", options.overrides.solver,
+                  "Solver of every object: auto, newton, clipping, radial or quadric")
       ->type_name("NAME");
 }
 
@@ -146,7 +147,12 @@ void add_info(CLI::App& program, CommandLine& line) {
       run_info);
   add_scene_options(*command, options->scene);
   command->add_flag("--no-mass", options->no_mass, "Leave out area, volume, centroid and inertia");
-  command->add_flag("--no-continuity", options->no_continuity, "Leave out how patches meet and regularity");
+  CLI::Option* without = command->add_flag("--no-continuity", options->no_continuity,
+                                           "Leave out how patches meet and regularity");
+  command
+      ->add_flag("--certify", options->certify,
+                 "Also prove in exact arithmetic that patches are regular, or that they are not")
+      ->excludes(without);
   command->add_flag("--json", options->json, "Print JSON");
 }
 

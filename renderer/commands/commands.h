@@ -54,6 +54,7 @@ struct InfoCommand {
   bool json = false;
   bool no_mass = false;
   bool no_continuity = false;
+  bool certify = false;
 };
 void run_info(const Registry& registry, const InfoCommand& options);
 

@@ -89,7 +89,7 @@ Json describe_object(const SceneObject& object, const InfoCommand& options) {
   for (const Note& note : surface.notes)
     out["notes"][note.name] = {{"value", note.value}, {"meaning", note.meaning}};
   if (!options.no_mass) add_mass(out, surface);
-  if (!options.no_continuity) add_continuity(out, surface);
+  if (!options.no_continuity) add_continuity(out, surface, options.certify);
   return out;
 }
 

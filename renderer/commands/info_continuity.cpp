@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/continuity/continuity.h"
+#include "renderer/continuity/exact_regularity.h"
 #include "renderer/continuity/regularity.h"
 
 namespace rondure {
@@ -40,9 +41,13 @@ Json continuity_json(const Continuity& c) {
   return out;
 }
 
-Json regularity_json(const Regularity& r) {
+const char* name_of(Regularity::Verdict verdict) {
   static constexpr const char* names[] = {"regular", "singular", "undecided"};
-  Json out = {{"verdict", names[static_cast<int>(r.verdict)]}, {"pieces", r.pieces}};
+  return names[static_cast<int>(verdict)];
+}
+
+Json regularity_json(const Regularity& r) {
+  Json out = {{"verdict", name_of(r.verdict)}, {"pieces", r.pieces}};
   out["patches_with_collapsed_sides"] = r.collapsed;
   const bool bounded = r.verdict == Regularity::Verdict::regular && r.collapsed == 0;
   out["least_certified"] = bounded ? Json(r.least) : Json(nullptr);
@@ -51,6 +56,21 @@ Json regularity_json(const Regularity& r) {
   out["largest_found"] = r.largest_found;
   out["singular"] = Json::array();
   for (const SingularPoint& s : r.singular) out["singular"].push_back(singular_of(s));
+  return out;
+}
+
+Json certificate_json(const ExactRegularity& r) {
+  Json out = {{"verdict", name_of(r.verdict)}, {"pieces", r.pieces}, {"deepest", r.deepest}};
+  out["patches_with_collapsed_sides"] = r.collapsed;
+  out["least"] = r.least > 0.0 ? Json(r.least) : Json(nullptr);
+  out["singular"] = Json::array();
+  for (const ProvedZero& s : r.singular) {
+    out["singular"].push_back(singular_of(s.at));
+    out["singular"].back()["within"] = s.within;
+  }
+  out["undecided"] = Json::array();
+  for (const SingularPoint& s : r.undecided) out["undecided"].push_back(singular_of(s));
+  out["work_spent"] = r.spent;
   return out;
 }
 
@@ -91,6 +111,42 @@ std::string seams_text(const Json& c) {
   return out;
 }
 
+std::string place_text(const Json& s) {
+  const Json& at = s["at"];
+  return fmt::format("patch {} at (u, v) = ({:.12g}, {:.12g}), ({:.6g}, {:.6g}, {:.6g})",
+                     s["patch"].get<int>(), s["uv"][0].get<double>(), s["uv"][1].get<double>(),
+                     at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+}
+
+std::string certificate_text(const Json& c) {
+  const std::string verdict = c["verdict"].get<std::string>();
+  std::string out;
+  if (verdict == "regular") {
+    out = fmt::format("    in exact arithmetic: regular, {} on {} pieces after up to {} halvings\n",
+                      c["least"].is_null()
+                          ? fmt::format("but for the sides where all normals vanish, of {} patches: proved",
+                                        c["patches_with_collapsed_sides"].get<int>())
+                          : fmt::format("|Su x Sv| is at least {:.3g}, proved", c["least"].get<double>()),
+                      c["pieces"].get<long>(), c["deepest"].get<int>());
+  } else if (verdict == "singular") {
+    const std::size_t count = c["singular"].size();
+    out = fmt::format("    in exact arithmetic: singular, proved at {} point{}\n", count,
+                      count == 1 ? "" : "s");
+    for (const Json& s : c["singular"]) {
+      const double within = s["within"].get<double>();
+      out +=
+          fmt::format("      {}\n",
+                      place_text(s) + (within > 0.0 ? fmt::format(", within {:.1e} of these u and v", within)
+                                                    : ", exactly"));
+    }
+  } else {
+    out = fmt::format("    in exact arithmetic: undecided{}\n",
+                      c["work_spent"].get<bool>() ? ", since it would take too much work" : "");
+  }
+  for (const Json& s : c["undecided"]) out += fmt::format("      not proved: {}\n", place_text(s));
+  return out;
+}
+
 std::string regularity_text(const Json& r) {
   const std::string verdict = r["verdict"].get<std::string>();
   std::string out;
@@ -109,12 +165,7 @@ std::string regularity_text(const Json& r) {
     const std::size_t count = r["singular"].size();
     out = fmt::format("    singular: Su x Sv vanishes at {} point{}{}\n", count, count == 1 ? "" : "s",
                       count == 16 ? " or more" : "");
-    for (const Json& s : r["singular"]) {
-      const Json& at = s["at"];
-      out += fmt::format("      patch {} at (u, v) = ({:.12g}, {:.12g}), ({:.6g}, {:.6g}, {:.6g})\n",
-                         s["patch"].get<int>(), s["uv"][0].get<double>(), s["uv"][1].get<double>(),
-                         at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
-    }
+    for (const Json& s : r["singular"]) out += fmt::format("      {}\n", place_text(s));
   } else {
     out = fmt::format(
         "    regular or not is undecided: |Su x Sv| falls to {:.3g} in patch {}, largest found {:.3g}\n",
@@ -125,15 +176,19 @@ std::string regularity_text(const Json& r) {
 
 }  // namespace
 
-void add_continuity(nlohmann::ordered_json& object, const Surface& surface) {
+void add_continuity(nlohmann::ordered_json& object, const Surface& surface, bool certify) {
   if (surface.patches.empty()) return;
   object["continuity"] = continuity_json(continuity_of(surface));
-  object["regularity"] = regularity_json(regularity_of(surface));
+  const Regularity regularity = regularity_of(surface);
+  object["regularity"] = regularity_json(regularity);
+  if (certify) object["certificate"] = certificate_json(exact_regularity(surface, regularity));
 }
 
 std::string continuity_text(const nlohmann::ordered_json& object) {
   if (!object.contains("continuity")) return {};
-  return seams_text(object["continuity"]) + regularity_text(object["regularity"]);
+  std::string out = seams_text(object["continuity"]) + regularity_text(object["regularity"]);
+  if (object.contains("certificate")) out += certificate_text(object["certificate"]);
+  return out;
 }
 
 }  // namespace rondure

@@ -9,7 +9,7 @@
 namespace rondure {
 
 // Adds "continuity" (where patches meet at all) and "regularity".
-void add_continuity(nlohmann::ordered_json& object, const Surface& surface);
+void add_continuity(nlohmann::ordered_json& object, const Surface& surface, bool certify);
 
 // The lines of text for an object that has these.
 std::string continuity_text(const nlohmann::ordered_json& object);

@@ -1,6 +1,7 @@
 #include "renderer/complex/complex_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
@@ -22,12 +23,54 @@ bool positive_weights(const ExactPatch& patch) {
                      [](const Exact& w) { return w > 0; });
 }
 
-Net rounded_net(const ExactPatch& patch) {
+// By how much the degree must be raised for all weights to be positive; 0 if 4 is not enough.
+int needed_raise(const ExactPatch& patch) {
+  for (int more = 0; more <= 4; ++more) {
+    if (positive_weights(more == 0 ? patch : raised(patch, patch[0].degree + more))) return more;
+  }
+  return 0;
+}
+
+// A number times which all coordinates are doubles; 1 where there is none that is short, and where all
+// weights are 1 and should stay so.
+Exact common_multiple(const std::vector<ExactPatch>& patches) {
+  constexpr int longest = 1 << 20;
+  Integer multiple = 1;
+  bool rational = false;
+  for (const ExactPatch& patch : patches) {
+    for (const PolygonPolynomial& p : patch) {
+      for (const Exact& c : p.coefficients) {
+        Integer odd = denominator(c);
+        odd >>= lsb(odd);
+        multiple = boost::multiprecision::lcm(multiple, odd);
+        if (multiple > longest) return 1;
+      }
+    }
+    for (const Exact& w : patch[3].coefficients) rational = rational || w != 1;
+  }
+  if (!rational) return 1;
+  const Exact factor(multiple);
+  for (const ExactPatch& patch : patches) {
+    for (const PolygonPolynomial& p : patch) {
+      for (const Exact& c : p.coefficients) {
+        const Exact whole = c * factor;
+        if (exact_of(rounded(whole)) != whole) return 1;
+      }
+    }
+  }
+  return factor;
+}
+
+Net rounded_net(const ExactPatch& patch, const Exact& factor, std::size_t& roundings) {
   const int n = patch[0].degree;
   Net net = patch[0].sides == 3 ? Net(TriangleNet(n)) : Net(TensorNet(n, n));
   std::vector<dvec4>& points = points_of(net);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    for (int d = 0; d < 4; ++d) points[k][d] = rounded(patch[index(d)].coefficients[k]);
+    for (int d = 0; d < 4; ++d) {
+      const Exact exact = patch[index(d)].coefficients[k] * factor;
+      points[k][d] = rounded(exact);
+      if (!std::isfinite(points[k][d]) || exact_of(points[k][d]) != exact) ++roundings;
+    }
   }
   return net;
 }
@@ -72,12 +115,14 @@ std::vector<ExactPatch> blend(const GcBasis& basis, const std::vector<BlendPoint
   return patches;
 }
 
-Net net_of(const ExactPatch& patch) {
-  for (int more = 0; more <= 4; ++more) {
-    const ExactPatch tried = more == 0 ? patch : raised(patch, patch[0].degree + more);
-    if (positive_weights(tried)) return rounded_net(tried);
-  }
-  return rounded_net(patch);
+RoundedNets nets_of(const std::vector<ExactPatch>& patches) {
+  std::vector<ExactPatch> positive;
+  for (const ExactPatch& patch : patches)
+    positive.push_back(raised(patch, patch[0].degree + needed_raise(patch)));
+  const Exact factor = common_multiple(positive);
+  RoundedNets out;
+  for (const ExactPatch& patch : positive) out.nets.push_back(rounded_net(patch, factor, out.roundings));
+  return out;
 }
 
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets) {

@@ -19,9 +19,14 @@ using ExactPatch = std::array<PolygonPolynomial, 4>;
 // the quotient sum of w_k P_k f_k / sum of w_k f_k, whose denominator must not vanish.
 std::vector<ExactPatch> blend(const GcBasis& basis, const std::vector<BlendPoint>& points, bool weighted);
 
-// Rounded to double. Where a weight of the net is not positive, the degree is raised by up to 4 until all of
-// them are; if that does not help, it stays.
-Net net_of(const ExactPatch& patch);
+// Patches in double precision. Where a weight of one is not positive, its degree is raised by up to 4 until
+// all of them are; if that does not help, it stays. Quotients are multiplied by a number times which all
+// coordinates are doubles, if there is one below 10^6: then nothing is rounded.
+struct RoundedNets {
+  std::vector<Net> nets;
+  std::size_t roundings = 0;  // coordinates that are not the exact ones, times that number
+};
+RoundedNets nets_of(const std::vector<ExactPatch>& patches);
 
 // The patches turned so that their normals agree, and point outward where the complex is closed and
 // orientable: towards the side for which the volume inside is positive, part by part.

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/complex/exact.h"
+#include "renderer/bezier/exact.h"
 
 namespace rondure {
 

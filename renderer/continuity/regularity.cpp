@@ -4,93 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <utility>
 
 #include "renderer/bezier/curvature_polynomial.h"
 #include "renderer/bezier/edge_factor.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/continuity/pieces.h"
+#include "renderer/continuity/separating_direction.h"
 
 namespace rondure {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-// The coefficients over the halves of a run of them.
-template <class T>
-void halve(std::vector<T> run, std::vector<T>& low, std::vector<T>& high) {
-  const std::size_t n = run.size() - 1;
-  low.resize(n + 1), high.resize(n + 1);
-  for (std::size_t left = n;; --left) {
-    low[n - left] = run[0];
-    high[left] = run[left];
-    if (left == 0) break;
-    for (std::size_t k = 0; k < left; ++k) run[k] = 0.5 * run[k] + 0.5 * run[k + 1];
-  }
-}
-
-// In u, and u and v exchanged.
-template <class T>
-std::pair<TensorPolynomial<T>, TensorPolynomial<T>> cut(const TensorPolynomial<T>& p) {
-  std::pair<TensorPolynomial<T>, TensorPolynomial<T>> parts{{p.n, p.m}, {p.n, p.m}};
-  std::vector<T> run(static_cast<std::size_t>(p.m) + 1), low, high;
-  for (int j = 0; j <= p.n; ++j) {
-    for (int i = 0; i <= p.m; ++i) run[static_cast<std::size_t>(i)] = p.at(i, j);
-    halve(run, low, high);
-    for (int i = 0; i <= p.m; ++i) {
-      parts.first.at(j, i) = low[static_cast<std::size_t>(i)];
-      parts.second.at(j, i) = high[static_cast<std::size_t>(i)];
-    }
-  }
-  return parts;
-}
-
-// Through the corner w and the middle of the opposite side, which becomes corner w of both parts.
-template <class T>
-std::pair<TrianglePolynomial<T>, TrianglePolynomial<T>> cut(const TrianglePolynomial<T>& p) {
-  std::pair<TrianglePolynomial<T>, TrianglePolynomial<T>> parts{TrianglePolynomial<T>(p.n),
-                                                                TrianglePolynomial<T>(p.n)};
-  std::vector<T> run, low, high;
-  for (int k = 0; k <= p.n; ++k) {
-    const int m = p.n - k;
-    run.resize(static_cast<std::size_t>(m) + 1);
-    for (int t = 0; t <= m; ++t) run[static_cast<std::size_t>(t)] = p.at(m - t, t);
-    halve(run, low, high);
-    for (int t = 0; t <= m; ++t) {
-      parts.first.at(k, m - t) = low[static_cast<std::size_t>(t)];
-      parts.second.at(t, k) = high[static_cast<std::size_t>(t)];
-    }
-  }
-  return parts;
-}
-
-// A piece of a patch: its normal, its weight, and its corners: 00, 10, 11, 01, or where u, v, w = 1.
-template <class Normal, class Weight>
-struct Piece {
-  Normal normal;
-  Weight weight;
-  std::vector<dvec2> corners;
-  int depth = 0;
-};
-
-template <class N, class W>
-std::pair<Piece<N, W>, Piece<N, W>> cut(const Piece<N, W>& p) {
-  auto normals = cut(p.normal);
-  auto weights = cut(p.weight);
-  const auto& c = p.corners;
-  std::vector<dvec2> first, second;
-  const dvec2 middle = 0.5 * (c[0] + c[1]);
-  if (c.size() == 3) {
-    first = {c[2], c[0], middle};
-    second = {c[1], c[2], middle};
-  } else {
-    // Corners 00, 10, 11, 01; after the exchange u runs from 00 to 01.
-    const dvec2 across = 0.5 * (c[3] + c[2]);
-    first = {c[0], c[3], across, middle};
-    second = {middle, across, c[2], c[1]};
-  }
-  return {Piece<N, W>{std::move(normals.first), std::move(weights.first), std::move(first), p.depth + 1},
-          Piece<N, W>{std::move(normals.second), std::move(weights.second), std::move(second), p.depth + 1}};
-}
 
 // What rounding can change in a coefficient of N: some tens of eps of the products it is summed from, taken
 // about a point of the net, and the rounding of that net's difference.
@@ -126,7 +50,7 @@ class Search {
         for (std::size_t k = 0; k < t->points.size(); ++k) weight.coefficients[k] = t->points[k].w;
         auto normal = without_edges(std::get<TensorNormal>(normal_polynomial(net)), factor);
         note_factor(factor.m + factor.n);
-        search(std::move(normal), std::move(weight), {dvec2(0, 0), dvec2(1, 0), dvec2(1, 1), dvec2(0, 1)});
+        search(std::move(normal), std::move(weight), whole_square());
       } else {
         const auto& triangle = std::get<TriangleNet>(net);
         TrianglePolynomial<double> factor, weight(triangle.n);
@@ -135,7 +59,7 @@ class Search {
           weight.coefficients[k] = triangle.points[k].w;
         auto normal = without_edges(std::get<TriangleNormal>(normal_polynomial(net)), factor);
         note_factor(factor.n);
-        search(std::move(normal), std::move(weight), {dvec2(1, 0), dvec2(0, 1), dvec2(0, 0)});
+        search(std::move(normal), std::move(weight), whole_triangle());
       }
     }
     if (!out_.singular.empty()) {
@@ -218,29 +142,14 @@ class Search {
   double lower_bound(const Piece<N, W>& piece) {
     double largest_weight = 0.0;
     for (const double w : piece.weight.coefficients) largest_weight = std::max(largest_weight, std::abs(w));
-    dvec3 sum(0.0);
-    for (const dvec3& n : piece.normal.coefficients) sum += n;
     for (const dvec2& corner : piece.corners) note(corner);
-    // The mean is a direction to try; while some coefficient lies on its other side, a share of that one is
-    // added (Rosenblatt's perceptron), which finds a plane with all of them on one side where there is one.
-    double low = 0.0;
-    for (int round = 0; round < 12; ++round) {
-      const double length = glm::length(sum);
-      if (!(length > 0.0)) return 0.0;
-      const dvec3 direction = sum / length;
-      low = std::numeric_limits<double>::infinity();
-      const dvec3* worst = nullptr;
-      for (const dvec3& n : piece.normal.coefficients) {
-        const double height = glm::dot(n, direction);
-        if (height < low) low = height, worst = &n;
-      }
-      const double size = worst ? glm::length(*worst) : 0.0;
-      if (!(size > 0.0) || low > noise_ * (1.0 + piece.depth)) break;
-      sum = direction + *worst / size;
-    }
     // Halving adds half an eps of the coefficients at every level and degree.
-    low -= noise_ * (1.0 + piece.depth);
-    return low > 0.0 ? low / (largest_weight * largest_weight * largest_weight) : 0.0;
+    const double noise = noise_ * (1.0 + piece.depth);
+    const std::optional<dvec3> direction = separating_direction(piece.normal.coefficients, noise);
+    if (!direction) return 0.0;
+    double low = std::numeric_limits<double>::infinity();
+    for (const dvec3& n : piece.normal.coefficients) low = std::min(low, glm::dot(n, *direction));
+    return (low - noise) / (largest_weight * largest_weight * largest_weight);
   }
 
   // Gauss and Newton's method for a zero of N near a piece that resisted.

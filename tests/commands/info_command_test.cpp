@@ -57,6 +57,35 @@ TEST_CASE("info tells area, volume, centroid and inertia with their errors", "[c
   CHECK(objects[3]["why_no_volume"] == "the normals of its patches do not add up to zero: it is not closed");
 }
 
+TEST_CASE("info --certify proves regularity and singular points in exact arithmetic", "[command]") {
+  const std::string folder = folder_with("certify", R"({ "objects": [
+    { "type": "gc_octahedron", "basis": "rational" },
+    { "type": "gc_octahedron", "control_points": { "h6": [-2, 1, 0], "h5": [0, 0, 0], "h7": [1, -2, -1] } },
+    { "type": "sphere_cap", "z_max": 0 } ] })");
+  const ProcessResult result = info(folder, {"--json", "--no-mass", "--certify"});
+  CHECK(result.err.empty());
+  REQUIRE(result.exit_code == 0);
+  const json objects = json::parse(result.out)["objects"];
+  const json &regular = objects[0]["certificate"], &singular = objects[1]["certificate"];
+  CHECK(objects[0]["notes"]["rounded"]["value"] == 0.0);
+  CHECK(regular["verdict"] == "regular");
+  CHECK(regular["least"].get<double>() >= 0.499 * objects[0]["regularity"]["least_found"].get<double>());
+  CHECK(regular["pieces"] > 50);
+  CHECK(singular["verdict"] == "singular");
+  REQUIRE(singular["singular"].size() == 2);
+  CHECK(singular["singular"][0]["patch"] == 2);
+  CHECK(singular["singular"][1]["within"] < 1e-12);
+  // The corners of a hemisphere are singular but for rounding: neither is proved, and the places are told.
+  const json& corners = objects[2]["certificate"];
+  CHECK(corners["verdict"] != "regular");
+  CHECK(corners["singular"].size() + corners["undecided"].size() >= 4);
+  const ProcessResult text = info(folder, {"--no-mass", "--certify"});
+  CHECK(text.out.find("in exact arithmetic: regular, |Su x Sv| is at least") != std::string::npos);
+  CHECK(text.out.find("in exact arithmetic: singular, proved at 2 points") != std::string::npos);
+  const ProcessResult both = info(folder, {"--no-continuity", "--certify"});
+  CHECK(both.exit_code == 1);
+}
+
 TEST_CASE("info without --json is text, and the mass may be left out", "[command][mass]") {
   const std::string folder = folder_with("info_text");
   const std::string text = info(folder).out;

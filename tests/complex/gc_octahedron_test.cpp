@@ -60,10 +60,13 @@ TEST_CASE("gc_octahedron nets are the reference's", "[complex]") {
         continue;
       }
       REQUIRE(net.n == entry["degree"].get<int>());
+      // Quotients of integers are multiplied by a whole number so that nothing is rounded.
+      const bool quotient = entry["name"].get<std::string>().find("stilde") != std::string::npos;
+      const double multiple = quotient ? 3.0 : 1.0;
       for (const auto& [key, value] : patch["net"].items()) {
         const int i = key[0] - '0', j = key[1] - '0';
         const dvec4 p = swapped(entry, octant) ? net.at(j, i) : net.at(i, j);
-        const dvec4 q(vector(value), number(value[3]));
+        const dvec4 q = multiple * dvec4(vector(value), number(value[3]));
         // Both are rounded once; those of the sphere are products of two rounded numbers.
         worst.add(glm::length(p - q), 4.0 * eps * glm::length(q),
                   [&] { return fmt::format("{} octant {} {}", entry["name"].dump(), octant, key); });

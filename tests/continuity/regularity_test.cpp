@@ -4,8 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
-#include "renderer/complex/exact_regularity.h"
+#include "renderer/complex/complex_surface.h"
 #include "renderer/complex/octahedron_bases.h"
+#include "renderer/continuity/exact_regularity.h"
 #include "tests/catch.h"
 #include "tests/surfaces/build_family.h"
 
@@ -16,15 +17,28 @@ using Verdict = Regularity::Verdict;
 
 BlendPoint at(int x, int y, int z) { return {{Exact(x), Exact(y), Exact(z)}, 1}; }
 
-// Equation 3.2 with control points 6, 5, 7 of Figure 3.
-std::vector<ExactPatch> cubic(const BlendPoint& six, const BlendPoint& five, const BlendPoint& seven) {
-  const std::vector<BlendPoint> points = {at(1, 1, 1), at(1, 1, -1), at(1, -1, 1), at(1, -1, -1),
-                                          five,        six,          seven,        at(-1, -1, -1)};
-  return blend(octahedron_splines(3), points, false);
+// A surface whose nets are exactly the blended patches, times one number.
+Surface exact_surface(const GcBasis& basis, const std::vector<BlendPoint>& points) {
+  RoundedNets rounded = nets_of(blend(basis, points, false));
+  CHECK(rounded.roundings == 0);
+  Surface surface;
+  surface.patches = std::move(rounded.nets);
+  return surface;
 }
 
-std::vector<ExactPatch> rational(const std::vector<BlendPoint>& points) {
-  return blend(octahedron_rationals(), points, false);
+// Equation 3.2 with control points 6, 5, 7 of Figure 3.
+Surface cubic(const BlendPoint& six, const BlendPoint& five, const BlendPoint& seven) {
+  const std::vector<BlendPoint> points = {at(1, 1, 1), at(1, 1, -1), at(1, -1, 1), at(1, -1, -1),
+                                          five,        six,          seven,        at(-1, -1, -1)};
+  return exact_surface(octahedron_splines(3), points);
+}
+
+Surface rational(const std::vector<BlendPoint>& points) {
+  return exact_surface(octahedron_rationals(), points);
+}
+
+ExactRegularity certified(const Surface& surface, double most_work = 1e9) {
+  return exact_regularity(surface, regularity_of(surface), most_work);
 }
 
 Surface figure_3d() {
@@ -68,35 +82,81 @@ Surface cusp(double shift) {
 TEST_CASE("the open question: eight regular patches over u^2 + v^2 + w^2, in exact arithmetic",
           "[regularity]") {
   // Both cyclically symmetric: A, F, B, E, C, D and the three products.
-  const ExactRegularity simplest =
-      exact_regularity(rational({at(0, -2, 1), at(1, 0, -2), at(-2, 1, 0), at(7, 0, -4), at(0, -4, 7),
-                                 at(-4, 7, 0), at(2, 0, 0), at(0, 2, 0), at(0, 0, 2)}));
-  CHECK(simplest.certified);
-  CHECK(simplest.pieces > 100);
-  const ExactRegularity round =
-      exact_regularity(rational({at(-2, -8, 1), at(1, -2, -8), at(-8, 1, -2), at(27, 6, -6), at(6, -6, 27),
-                                 at(-6, 27, 6), at(10, 4, 4), at(4, 10, 4), at(4, 4, 10)}));
-  CHECK(round.certified);
-  // A mirror makes two vertices singular: A and F with x -> -x.
+  for (const std::vector<BlendPoint>& points :
+       {std::vector<BlendPoint>{at(0, -2, 1), at(1, 0, -2), at(-2, 1, 0), at(7, 0, -4), at(0, -4, 7),
+                                at(-4, 7, 0), at(2, 0, 0), at(0, 2, 0), at(0, 0, 2)},
+        {at(-2, -8, 1), at(1, -2, -8), at(-8, 1, -2), at(27, 6, -6), at(6, -6, 27), at(-6, 27, 6),
+         at(10, 4, 4), at(4, 10, 4), at(4, 4, 10)}}) {
+    const Surface surface = rational(points);
+    const ExactRegularity proof = certified(surface);
+    CHECK(proof.verdict == Verdict::regular);
+    CHECK(proof.pieces > 100);
+    // The same bound is reached with rounding, where pieces differ by little: both take half of the least
+    // found.
+    const Regularity rounded = regularity_of(surface);
+    CHECK(proof.least >= 0.499 * rounded.least_found);
+    CHECK(proof.least <= sampled_least(surface, 48));
+  }
+  // A mirror makes two vertices singular: A and F with x -> -x. They are corners, where nothing is rounded.
   const ExactRegularity mirrored =
-      exact_regularity(rational({at(2, 0, 0), at(0, 3, 1), at(0, 0, 2), at(0, 1, -2), at(0, -2, 1),
-                                 at(-2, 0, 0), at(0, 1, 1), at(1, 0, 0), at(2, 0, 0)}),
-                       20, 2000);
-  CHECK_FALSE(mirrored.certified);
+      certified(rational({at(2, 0, 0), at(0, 3, 1), at(0, 0, 2), at(0, 1, -2), at(0, -2, 1), at(-2, 0, 0),
+                          at(0, 1, 1), at(1, 0, 0), at(2, 0, 0)}));
+  CHECK(mirrored.verdict == Verdict::singular);
+  REQUIRE_FALSE(mirrored.singular.empty());
+  bool corner = false;
+  for (const ProvedZero& zero : mirrored.singular)
+    corner = corner || (zero.within == 0.0 && (zero.at.u == 1.0 || zero.at.v == 1.0));
+  CHECK(corner);
 }
 
 TEST_CASE("Figure 3: (a), (b), (c) are regular, (d) is so only with other signs", "[regularity]") {
   const BlendPoint six = at(-1, 1, -1), five = at(-1, 1, 1), seven = at(-1, -1, 1);
-  CHECK(exact_regularity(cubic(six, five, seven)).certified);
-  CHECK(exact_regularity(cubic(at(-2, 1, 0), five, seven)).certified);
-  CHECK(exact_regularity(cubic(at(-2, 1, 0), at(0, 0, 0), seven)).certified);
+  CHECK(certified(cubic(six, five, seven)).verdict == Verdict::regular);
+  CHECK(certified(cubic(at(-2, 1, 0), five, seven)).verdict == Verdict::regular);
+  CHECK(certified(cubic(at(-2, 1, 0), at(0, 0, 0), seven)).verdict == Verdict::regular);
   const auto last = [&](int x, int y, int z) {
-    return exact_regularity(cubic(at(-2, 1, 0), at(0, 0, 0), at(x, y, z)), 24, 5000).certified;
+    return certified(cubic(at(-2, 1, 0), at(0, 0, 0), at(x, y, z)));
   };
-  CHECK_FALSE(last(1, -2, -1));
-  CHECK(last(-1, -2, 1));
-  CHECK(last(1, -2, 1));
-  CHECK(last(-1, -2, -1));
+  CHECK(last(-1, -2, 1).verdict == Verdict::regular);
+  CHECK(last(1, -2, 1).verdict == Verdict::regular);
+  CHECK(last(-1, -2, -1).verdict == Verdict::regular);
+  const ExactRegularity printed = last(1, -2, -1);
+  CHECK(printed.verdict == Verdict::singular);
+  REQUIRE(printed.singular.size() == 2);
+  // Known to 12 digits, in triangles as they are given.
+  const double known[2][2] = {{0.142384548227, 0.447842876926}, {0.403543360584, 0.582178269665}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ProvedZero& zero = printed.singular[k];
+    CHECK(zero.at.patch == (k == 0 ? 2 : 7));
+    CHECK(std::abs(zero.at.u - known[k][0]) <= zero.within + 5e-13);
+    CHECK(std::abs(zero.at.v - known[k][1]) <= zero.within + 5e-13);
+    CHECK(zero.within < 1e-12);
+  }
+}
+
+TEST_CASE("exact proofs of regularity: nothing is proved that is not so, and work is bounded",
+          "[regularity]") {
+  // A zero at u = 1/3 of doubles that are not: neither regular nor singular in truth, to rounding.
+  const Surface third = cusp(1.0 / 3.0);
+  const ExactRegularity open = certified(third, 1e7);
+  CHECK(open.verdict != Verdict::regular);
+  // At 1/2 nothing is rounded, and the line of zeros is found.
+  const ExactRegularity half = certified(cusp(0.5), 1e7);
+  CHECK(half.verdict != Verdict::regular);
+  // A side that is a cusp: proved but for that side.
+  const ExactRegularity side = certified(cusp(0.0));
+  CHECK(side.verdict == Verdict::regular);
+  CHECK(side.collapsed == 1);
+  CHECK(side.least == 0.0);
+  // Just outside the patch.
+  CHECK(certified(cusp(-1e-7)).verdict == Verdict::regular);
+  const ExactRegularity poor =
+      certified(rational({at(0, -2, 1), at(1, 0, -2), at(-2, 1, 0), at(7, 0, -4), at(0, -4, 7), at(-4, 7, 0),
+                          at(2, 0, 0), at(0, 2, 0), at(0, 0, 2)}),
+                1e3);
+  CHECK(poor.verdict == Verdict::undecided);
+  CHECK(poor.spent);
+  CHECK_FALSE(poor.undecided.empty());
 }
 
 TEST_CASE("the cross-caps of Figure 3 (d) are found", "[regularity]") {

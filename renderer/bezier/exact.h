@@ -1,4 +1,4 @@
-// Rational numbers without rounding: what a surface complex and its functions are made of.
+// Rational numbers without rounding.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

@@ -1,4 +1,4 @@
-#include "renderer/complex/exact.h"
+#include "renderer/bezier/exact.h"
 
 #include <cmath>
 #include <cstdint>
