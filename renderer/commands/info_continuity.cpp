@@ -55,7 +55,13 @@ Json regularity_json(const Regularity& r) {
   out["least_at"] = singular_of(r.least_at);
   out["largest_found"] = r.largest_found;
   out["singular"] = Json::array();
-  for (const SingularPoint& s : r.singular) out["singular"].push_back(singular_of(s));
+  static constexpr const char* proofs[] = {"none", "exact", "unique"};
+  for (const SingularPoint& s : r.singular) {
+    out["singular"].push_back(singular_of(s));
+    out["singular"].back()["proof"] = proofs[static_cast<int>(s.proof)];
+    out["singular"].back()["within"] = s.proof == SingularPoint::Proof::none ? Json(nullptr) : Json(s.within);
+  }
+  out["complete"] = r.complete;
   return out;
 }
 
@@ -163,8 +169,12 @@ std::string regularity_text(const Json& r) {
         r["patches_with_collapsed_sides"].get<int>(), r["pieces"].get<long>());
   } else if (verdict == "singular") {
     const std::size_t count = r["singular"].size();
-    out = fmt::format("    singular: Su x Sv vanishes at {} point{}{}\n", count, count == 1 ? "" : "s",
-                      count == 16 ? " or more" : "");
+    out = fmt::format("    singular: Su x Sv vanishes at {} point{}{}{}\n", count, count == 1 ? "" : "s",
+                      count == 16 ? " or more" : "",
+                      !r["complete"].get<bool>() ? ""
+                      : r["patches_with_collapsed_sides"].get<int>() > 0
+                          ? ", and nowhere else but on collapsed sides"
+                          : ", and nowhere else");
     for (const Json& s : r["singular"]) out += fmt::format("      {}\n", place_text(s));
   } else {
     out = fmt::format(

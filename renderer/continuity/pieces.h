@@ -104,6 +104,18 @@ std::pair<Piece<N, W>, Piece<N, W>> cut(const Piece<N, W>& p) {
           Piece<N, W>{std::move(normals.second), std::move(weights.second), std::move(second), p.depth + 1}};
 }
 
+// Indices of the coefficients at the corners, in the order of Piece::corners.
+template <class T>
+std::vector<std::size_t> corner_indices(const TensorPolynomial<T>& p) {
+  const auto index = [&](int i, int j) { return static_cast<std::size_t>(i * (p.n + 1) + j); };
+  return {index(0, 0), index(p.m, 0), index(p.m, p.n), index(0, p.n)};
+}
+template <class T>
+std::vector<std::size_t> corner_indices(const TrianglePolynomial<T>& p) {
+  const auto index = [&](int i, int j) { return static_cast<std::size_t>(triangle_index(p.n, i, j)); };
+  return {index(p.n, 0), index(0, p.n), index(0, 0)};
+}
+
 // A patch's own corners.
 inline std::vector<dvec2> whole_triangle() { return {dvec2(1, 0), dvec2(0, 1), dvec2(0, 0)}; }
 inline std::vector<dvec2> whole_square() { return {dvec2(0, 0), dvec2(1, 0), dvec2(1, 1), dvec2(0, 1)}; }

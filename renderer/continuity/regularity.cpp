@@ -4,10 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "renderer/bezier/curvature_polynomial.h"
 #include "renderer/bezier/edge_factor.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/continuity/normal_zero.h"
 #include "renderer/continuity/pieces.h"
 #include "renderer/continuity/separating_direction.h"
 
@@ -34,6 +37,8 @@ double rounding_of(const Net& net) {
   return 3.0 * 4.0 * n * n * weight * space * off;
 }
 
+bool is_end(double x) { return x == 0.0 || x == 1.0; }
+
 class Search {
  public:
   Search(const Surface& surface, long budget) : surface_(surface), budget_(budget) {
@@ -49,7 +54,7 @@ class Search {
         factor.coefficients = {1.0};
         for (std::size_t k = 0; k < t->points.size(); ++k) weight.coefficients[k] = t->points[k].w;
         auto normal = without_edges(std::get<TensorNormal>(normal_polynomial(net)), factor);
-        note_factor(factor.m + factor.n);
+        note_factor(factor.m + factor.n, std::max(normal.m, normal.n));
         search(std::move(normal), std::move(weight), whole_square());
       } else {
         const auto& triangle = std::get<TriangleNet>(net);
@@ -58,13 +63,14 @@ class Search {
         for (std::size_t k = 0; k < triangle.points.size(); ++k)
           weight.coefficients[k] = triangle.points[k].w;
         auto normal = without_edges(std::get<TriangleNormal>(normal_polynomial(net)), factor);
-        note_factor(factor.n);
+        note_factor(factor.n, normal.n);
         search(std::move(normal), std::move(weight), whole_triangle());
       }
     }
+    out_.complete = !unproved_ && !surface_.patches.empty();
     if (!out_.singular.empty()) {
       out_.verdict = Regularity::Verdict::singular;
-    } else if (!unproved_ && !surface_.patches.empty()) {
+    } else if (out_.complete) {
       out_.verdict = Regularity::Verdict::regular;
     }
     if (out_.verdict != Regularity::Verdict::regular || out_.collapsed > 0) out_.least = 0.0;
@@ -72,8 +78,15 @@ class Search {
   }
 
  private:
-  static constexpr int deepest = 40;  // 2^-20 in each direction
+  static constexpr int deepest = 40;     // 2^-20 in each direction
+  static constexpr int first_zeros = 8;  // pieces of a 16th, on which zeros are first looked for
   static constexpr std::size_t most_singular = 16;
+
+  // A zero inside, and a radius within which there is no other.
+  struct Known {
+    dvec2 at;
+    double radius;
+  };
 
   const Surface& surface_;
   long budget_;
@@ -81,8 +94,14 @@ class Search {
   int patch_ = 0;
   double noise_ = 0.0;
   bool unproved_ = false;
+  std::optional<ZeroFinder> finder_;  // of the patch at hand
+  std::vector<Known> alone_;
 
-  void note_factor(int degree) { out_.collapsed += degree > 0 ? 1 : 0; }
+  // Of what the sides' factors were divided out of, each of which may make its noise larger by the degree.
+  void note_factor(int factors, int left) {
+    out_.collapsed += factors > 0 ? 1 : 0;
+    for (int k = 1; k <= factors; ++k) noise_ *= left + k;
+  }
 
   const Net& net() const { return surface_.patches[static_cast<std::size_t>(patch_)]; }
 
@@ -112,14 +131,17 @@ class Search {
   void search(N normal, W weight, std::vector<dvec2> corners) {
     note_grid();
     std::vector<Piece<N, W>> left;
+    finder_.emplace(normal, noise_);
+    alone_.clear();
     left.push_back({std::move(normal), std::move(weight), std::move(corners), 0});
     std::vector<dvec2> suspects;
     while (!left.empty()) {
       const Piece<N, W> piece = std::move(left.back());
       left.pop_back();
+      for (const dvec2& corner : piece.corners) note(corner);
       const double bound = lower_bound(piece);
-      if (bound > 0.0 && bound >= 0.5 * out_.least_found) {
-        out_.least = std::min(out_.least, bound);
+      if (bound > 0.0 ? bound >= 0.5 * out_.least_found : settled(piece)) {
+        if (bound > 0.0) out_.least = std::min(out_.least, bound);
         ++out_.pieces;
         continue;
       }
@@ -134,17 +156,65 @@ class Search {
       left.push_back(std::move(parts.first));
       left.push_back(std::move(parts.second));
     }
-    for (const dvec2& at : suspects) polish(at);
+    for (const dvec2& at : suspects)
+      if (const auto zero = finder_->from(at)) add(*zero, SingularPoint::Proof::none, 0.0);
   }
 
-  // Of |N| / w^3 on the piece. Its corners give values that are taken.
+  // Whether all singular points on the piece are proved and listed.
   template <class N, class W>
-  double lower_bound(const Piece<N, W>& piece) {
+  bool settled(const Piece<N, W>& piece) {
+    if (const auto corner = only_zero_corner(piece)) {
+      add(*corner, SingularPoint::Proof::exact, 0.0);
+      return true;
+    }
+    if (piece.depth < first_zeros || piece.depth % 4 != 0) return false;
+    if (within_known(piece)) return true;
+    dvec2 middle(0.0);
+    for (const dvec2& c : piece.corners) middle += c / static_cast<double>(piece.corners.size());
+    const auto zero = finder_->from(middle);
+    if (!zero || glm::distance(*zero, middle) > 8.0 * glm::distance(piece.corners[0], piece.corners[1]))
+      return false;
+    const auto proof = finder_->proof(*zero);
+    if (!proof || !proof->inside) return false;
+    alone_.push_back({*zero, proof->alone});
+    add(*zero, SingularPoint::Proof::unique, proof->within);
+    return within_known(piece);
+  }
+
+  template <class N, class W>
+  bool within_known(const Piece<N, W>& piece) const {
+    return std::any_of(alone_.begin(), alone_.end(), [&](const Known& known) {
+      return std::all_of(piece.corners.begin(), piece.corners.end(),
+                         [&](const dvec2& c) { return glm::distance(c, known.at) < known.radius; });
+    });
+  }
+
+  // A corner of the patch at which N vanishes, if it does so there and nowhere else on the piece: the one
+  // corner whose coefficient is zero, and the rest of them, zeros apart, on one side of a plane. Zeros are
+  // exact there and stay so when pieces are cut.
+  template <class N, class W>
+  std::optional<dvec2> only_zero_corner(const Piece<N, W>& piece) const {
+    const std::vector<std::size_t> indices = corner_indices(piece.normal);
+    std::optional<dvec2> found;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      if (piece.normal.coefficients[indices[k]] != dvec3(0.0)) continue;
+      const dvec2 corner = piece.corners[k];
+      if (found || !is_end(corner.x) || !is_end(corner.y)) return {};
+      found = corner;
+    }
+    if (!found) return {};
+    std::vector<dvec3> rest;
+    for (const dvec3& n : piece.normal.coefficients)
+      if (n != dvec3(0.0)) rest.push_back(n);
+    return separating_direction(rest, noise_at(piece.depth)) ? found : std::nullopt;
+  }
+
+  // Of |N| / w^3 on the piece.
+  template <class N, class W>
+  double lower_bound(const Piece<N, W>& piece) const {
     double largest_weight = 0.0;
     for (const double w : piece.weight.coefficients) largest_weight = std::max(largest_weight, std::abs(w));
-    for (const dvec2& corner : piece.corners) note(corner);
-    // Halving adds half an eps of the coefficients at every level and degree.
-    const double noise = noise_ * (1.0 + piece.depth);
+    const double noise = noise_at(piece.depth);
     const std::optional<dvec3> direction = separating_direction(piece.normal.coefficients, noise);
     if (!direction) return 0.0;
     double low = std::numeric_limits<double>::infinity();
@@ -152,47 +222,18 @@ class Search {
     return (low - noise) / (largest_weight * largest_weight * largest_weight);
   }
 
-  // Gauss and Newton's method for a zero of N near a piece that resisted.
-  void polish(dvec2 at) {
-    const NormalPolynomial n = normal_polynomial(net());
-    double size = 0.0;
-    std::visit(
-        [&](const auto& p) {
-          for (const dvec3& c : p.coefficients) size = std::max(size, glm::length(c));
-        },
-        n);
-    const bool triangle = std::holds_alternative<TriangleNet>(net());
-    const auto value = [&](const dvec2& p) { return polynomial_value(n, p.x, p.y); };
-    // What rounding leaves of a zero: some tens of eps, and those of where it lies.
-    const double zero = 1e-13 * size;
-    for (int step = 0; step < 20 && !(glm::length(value(at)) <= zero); ++step) {
-      const double h = 1e-6;
-      const dvec3 f = value(at);
-      const dvec3 fu = (value(at + dvec2(h, 0)) - value(at - dvec2(h, 0))) / (2.0 * h);
-      const dvec3 fv = (value(at + dvec2(0, h)) - value(at - dvec2(0, h))) / (2.0 * h);
-      const double a = glm::dot(fu, fu), b = glm::dot(fu, fv), c = glm::dot(fv, fv);
-      const dvec2 right(glm::dot(fu, f), glm::dot(fv, f));
-      // Along a singular curve N changes across it only: then the shortest of the steps that would do.
-      const double d = a * c - b * b, both = a + c;
-      if (!(both > 0.0)) break;
-      const dvec2 move = d > 1e-9 * both * both
-                             ? dvec2((c * right.x - b * right.y) / d, (a * right.y - b * right.x) / d)
-                             : right / both;
-      at -= move;
-      if (glm::length(move) < 1e-15) break;
-    }
-    const double slack = 1e-9;
-    const bool inside = at.x >= -slack && at.y >= -slack &&
-                        (triangle ? at.x + at.y <= 1.0 + slack : at.x <= 1.0 + slack && at.y <= 1.0 + slack);
-    if (!inside) return;
-    at = glm::clamp(at, 0.0, 1.0);
-    if (triangle && at.x + at.y > 1.0) at /= at.x + at.y;
-    if (!(glm::length(value(at)) <= zero)) return;
-    for (const SingularPoint& s : out_.singular) {
+  // Halving adds half an eps of the coefficients at every level and degree.
+  double noise_at(int depth) const { return noise_ * (1.0 + depth); }
+
+  void add(const dvec2& at, SingularPoint::Proof proof, double within) {
+    for (const SingularPoint& s : out_.singular)
       if (s.patch == patch_ && glm::distance(dvec2(s.u, s.v), at) < 1e-5) return;
+    if (out_.singular.size() >= most_singular) {
+      unproved_ = true;
+      return;
     }
-    if (out_.singular.size() >= most_singular) return;
-    out_.singular.push_back({patch_, at.x, at.y, net_point(net(), at.x, at.y) + surface_.origin});
+    out_.singular.push_back(
+        {patch_, at.x, at.y, net_point(net(), at.x, at.y) + surface_.origin, proof, within});
   }
 };
 

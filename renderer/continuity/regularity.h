@@ -8,9 +8,17 @@
 namespace rondure {
 
 struct SingularPoint {
+  // What is proved, whatever rounding did to the control points and since. exact: N vanishes at this corner
+  // of the patch, as far as rounding lets control points tell, and nowhere else near it. unique: at one place
+  // within `within` of these parameters, and nowhere else near it. none: N is found to be zero up to
+  // rounding.
+  enum class Proof { none, exact, unique };
+
   int patch = 0;
   double u = 0.0, v = 0.0;
   dvec3 point{0.0};
+  Proof proof = Proof::none;
+  double within = 0.0;
 };
 
 struct Regularity {
@@ -24,13 +32,16 @@ struct Regularity {
   double largest_found = 0.0;
   SingularPoint least_at;               // where it takes it
   std::vector<SingularPoint> singular;  // some of them, where there are many
-  long pieces = 0;                      // into which the patches were cut
+  // All other places are proved to be regular, but for collapsed sides.
+  bool complete = false;
+  long pieces = 0;  // into which the patches were cut
 };
 
-// From the Bernstein coefficients of the normal polynomial: on a piece of a patch all of them lie on one side
-// of a plane through 0, further away than what rounding can have changed; pieces are halved until they do.
-// `least` is then at least half of `least_found`. Pieces that shrink to 2^-20 of a patch without a proof are
-// searched for a zero of the normal. At most `budget` pieces.
+// From the Bernstein coefficients of the normal polynomial N: on a piece of a patch all of them lie on one
+// side of a plane through 0, further away than what rounding can have changed; pieces are halved until they
+// do. `least` is then at least half of `least_found`. A piece at a corner may have zeros among them that
+// vanish there alone, and one near a simple zero inside is settled by Kantorovich's theorem; pieces that
+// shrink to 2^-20 of a patch without a proof are searched for zeros. At most `budget` pieces.
 Regularity regularity_of(const Surface& surface, long budget = 200000);
 
 }  // namespace rondure

@@ -31,7 +31,8 @@ CornerTables kept_corners(const Subject& subject, const Registry& registry, cons
   };
   const std::string stem = "parts/" + subject.name;
   CornerTables tables;
-  tables.summary = folder.kept(stem + ".txt", key, [&] { return measured().summary; });
+  tables.families =
+      Table(folder.kept(stem + "-families.csv", key, [&] { return measured().families.text(); }));
   tables.sites = Table(folder.kept(stem + "-sites.csv", key, [&] { return measured().sites.text(); }));
   tables.walks = Table(folder.kept(stem + "-walks.csv", key, [&] { return measured().walks.text(); }));
   return tables;
@@ -47,23 +48,24 @@ void study_corner_normals(const StudyOptions& options, const Registry& registry)
   const StudyFolder folder(options.output);
   const StudyFolder parts(folder.path("parts"));
   const InterruptGuard guard;
-  Table sites, walks;
-  std::vector<std::string> summaries;
+  CornerTables all;
   std::vector<CloseUps> close_ups;
   {
     Progress progress("singular points", chosen.size(), progress_style(options.quiet));
     for (const Subject& subject : chosen) {
       const CornerTables tables = kept_corners(subject, registry, folder, options);
-      summaries.push_back(tables.summary);
-      sites.append(tables.sites);
-      walks.append(tables.walks);
+      all.families.append(tables.families);
+      all.sites.append(tables.sites);
+      all.walks.append(tables.walks);
       progress.advance(1);
       stop_if_interrupted(progress, folder);
     }
   }
-  const Table slopes = corner_slopes(walks);
+  const Table slopes = corner_slopes(all.walks);
+  const Table& sites = all.sites;
+  folder.write("families.csv", all.families.text());
   folder.write("sites.csv", sites.text());
-  folder.write("walks.csv", walks.text());
+  folder.write("walks.csv", all.walks.text());
   folder.write("slopes.csv", slopes.text());
 
   // The first site of each group.
@@ -84,7 +86,7 @@ void study_corner_normals(const StudyOptions& options, const Registry& registry)
       stop_if_interrupted(progress, folder);
     }
   }
-  folder.write("index.html", corner_page(sites, walks, slopes, summaries, close_ups, folder, options));
+  folder.write("index.html", corner_page(all, slopes, close_ups, folder, options));
 }
 
 }  // namespace rondure

@@ -19,13 +19,13 @@ struct StudyOptions {
   std::string command;  // that reproduces the study, for the page
 };
 
-// Tables of one subject. `sites`: family, site, patch, u, v, x, y, z, place, kind, order, side_order, limit,
-// spread, nx, ny, nz. `walks`: family, site, group, way, distance, u, v, sine, condition, smallest,
-// reference, error_E and radiance_E for every estimator E, rays, hits, off, steps, undecided, cells. Angles
-// in radians.
+// Tables of one subject. `families`: family, patches, sites, undecided, pieces: on how many patches the
+// search for singular points was given up, and what it took. `sites`: family, site, group, patch, u, v, x, y,
+// z, place, kind, order, side_order, limit, spread, nx, ny, nz (the limit), ax, ay, az (along one way in),
+// proof, within. `walks`: family, site, group, way, distance, u, v, sine, condition, smallest, reference,
+// error_E and radiance_E for every estimator E, rays, hits, off, steps, undecided, cells. Angles in radians.
 struct CornerTables {
-  Table sites, walks;
-  std::string summary;  // how the search for singular points ended
+  Table families, sites, walks;
 };
 CornerTables measure_corners(const Subject& subject, const Registry& registry, bool quick);
 
@@ -50,13 +50,16 @@ struct CloseUps {
 CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
                         const std::string& group, const StudyFolder& folder, const StudyOptions& options);
 
-std::string corner_page(const Table& sites, const Table& walks, const Table& slopes,
-                        const std::vector<std::string>& summaries, const std::vector<CloseUps>& close_ups,
-                        const StudyFolder& folder, const StudyOptions& options);
+// Which singular points there are, and how that is known: a part of the page.
+std::string sites_section(const Table& families, const Table& sites);
 
-// Writes sites.csv, walks.csv, slopes.csv, the plots and index.html, and what the page's pictures are of.
-// Interrupted and started again it goes on where it was. Throws std::runtime_error for what is missing or
-// cannot be written.
+std::string corner_page(const CornerTables& tables, const Table& slopes,
+                        const std::vector<CloseUps>& close_ups, const StudyFolder& folder,
+                        const StudyOptions& options);
+
+// Writes families.csv, sites.csv, walks.csv, slopes.csv, the plots and index.html, and what the page's
+// pictures are of. Interrupted and started again it goes on where it was. Throws std::runtime_error for what
+// is missing or cannot be written.
 void study_corner_normals(const StudyOptions& options, const Registry& registry);
 
 }  // namespace rondure

@@ -58,48 +58,6 @@ Curve envelope(const Table& walks, const Group& group, const std::string& column
   return curve;
 }
 
-std::string sites_section(const Table& sites, const std::vector<std::string>& summaries) {
-  std::string out = "<h2>Singular points</h2>\n<ul>\n";
-  for (const std::string& line : summaries) out += "<li>" + html_escaped(line) + "</li>\n";
-  out += "</ul>\n";
-  // One line for the sites of a group that are alike.
-  struct Line {
-    std::string family, group, order, limit;
-    int count = 0;
-    std::string first;
-    double spread = 0.0;
-  };
-  std::vector<Line> lines;
-  for (std::size_t k = 0; k < sites.size(); ++k) {
-    const std::string order =
-        sites.at(k, "side_order") == "0"
-            ? sites.at(k, "order")
-            : fmt::format("{} (side), {} (rest)", sites.at(k, "side_order"), sites.at(k, "order"));
-    const std::string limit = sites.at(k, "limit") == "1" ? "exists" : "does not exist";
-    const auto same = [&](const Line& l) {
-      return l.family == sites.at(k, "family") && l.group == sites.at(k, "group") && l.order == order &&
-             l.limit == limit;
-    };
-    auto line = std::find_if(lines.begin(), lines.end(), same);
-    if (line == lines.end()) {
-      const std::string first =
-          fmt::format("patch {}, ({}, {})", sites.at(k, "patch"), number_text(sites.number(k, "u"), 12),
-                      number_text(sites.number(k, "v"), 12));
-      line = lines.insert(lines.end(),
-                          Line{sites.at(k, "family"), sites.at(k, "group"), order, limit, 0, first, 0.0});
-    }
-    ++line->count;
-    line->spread = std::max(line->spread, sites.number(k, "spread"));
-  }
-  std::vector<std::vector<std::string>> rows = {
-      {"family", "kind (place)", "count", "order of the zero of Su &times; Sv", "limit normal",
-       "spread of the limits by way in (rad)", "first: patch, (u, v)"}};
-  for (const Line& l : lines)
-    rows.push_back({html_escaped(l.family), html_escaped(l.group), fmt::format("{}", l.count), l.order,
-                    l.limit, number_text(l.spread), l.first});
-  return out + html_table(rows);
-}
-
 std::string slopes_table(const Table& slopes, const Group& group) {
   std::vector<std::vector<std::string>> rows = {
       {"normals", "slope of log error over log distance", "fitted over", "places", "worst error (rad)",
@@ -196,15 +154,17 @@ std::string close_up_section(const CloseUps& ups) {
 
 }  // namespace
 
-std::string corner_page(const Table& sites, const Table& walks, const Table& slopes,
-                        const std::vector<std::string>& summaries, const std::vector<CloseUps>& close_ups,
-                        const StudyFolder& folder, const StudyOptions& options) {
+std::string corner_page(const CornerTables& tables, const Table& slopes,
+                        const std::vector<CloseUps>& close_ups, const StudyFolder& folder,
+                        const StudyOptions& options) {
+  const Table& walks = tables.walks;
   std::string body =
       "<p>What degenerate parametrisations do to normals. At each singular point the program walks in along "
       "straight "
       "lines of the parameters and compares what the estimators give with the gradient of the quadric that "
       "the patch "
-      "lies on, or where there is none with the limit normal. All numbers are in <code>sites.csv</code>, "
+      "lies on, or where there is none with the limit normal. All numbers are in <code>families.csv</code>, "
+      "<code>sites.csv</code>, "
       "<code>walks.csv</code> and <code>slopes.csv</code>; angles in radians, distances in parameters (the "
       "domain is "
       "[0, 1]<sup>2</sup>, or a triangle of side 1). Every surface is turned by 40&deg; about (1, 2, 3): "
@@ -212,7 +172,7 @@ std::string corner_page(const Table& sites, const Table& walks, const Table& slo
       "places with an "
       "error "
       "between 10 &times; 2<sup>-52</sup> and 0.1.</p>\n";
-  body += sites_section(sites, summaries);
+  body += sites_section(tables.families, tables.sites);
   for (const Group& group : groups_of(walks)) {
     body += fmt::format("<h2>{}: {}</h2>\n", html_escaped(group.family), html_escaped(group.name));
     body += slopes_table(slopes, group) + solver_line(walks, group) + plots(walks, group, folder);

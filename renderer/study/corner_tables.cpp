@@ -21,7 +21,8 @@ std::string group_of(const SingularSite& site) {
 std::string sites_text(const std::string& family, const Surface& surface,
                        const std::vector<SingularSite>& sites) {
   std::string text =
-      "family,site,group,patch,u,v,x,y,z,place,kind,order,side_order,limit,spread,nx,ny,nz,ax,ay,az\n";
+      "family,site,group,patch,u,v,x,y,z,place,kind,order,side_order,limit,spread,nx,ny,nz,ax,ay,az,proof,"
+      "within\n";
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const SingularSite& s = sites[k];
     const dvec3 n = s.limit.value_or(dvec3(std::nan("")));
@@ -33,7 +34,8 @@ std::string sites_text(const std::string& family, const Surface& surface,
     text += fmt::format(",{},{},{},{},{},{}", s.place, s.kind, s.germ.order, s.germ.side_order,
                         s.limit ? 1 : 0, csv_number(s.germ.spread));
     for (const double x : {n.x, n.y, n.z, a.x, a.y, a.z}) text += "," + csv_number(x);
-    text += "\n";
+    static constexpr const char* proofs[] = {"none", "exact", "unique"};
+    text += fmt::format(",{},{}\n", proofs[static_cast<int>(s.proof)], csv_number(s.within));
   }
   return text;
 }
@@ -63,11 +65,9 @@ CornerTables measure_corners(const Subject& subject, const Registry& registry, b
   const SiteSearch search = singular_sites(surface);
   CornerTables tables;
   tables.sites = Table(sites_text(subject.name, surface, search.sites));
-  tables.summary =
-      fmt::format("{}: {} patches, {} singular points and places on collapsed sides; the search was {}",
-                  subject.name, surface.patches.size(), search.sites.size(),
-                  search.undecided == 0 ? std::string("carried to its end on every patch")
-                                        : fmt::format("given up on {} patches", search.undecided));
+  tables.families =
+      Table(fmt::format("family,patches,sites,undecided,pieces\n{},{},{},{},{}\n", subject.name,
+                        surface.patches.size(), search.sites.size(), search.undecided, search.pieces));
   std::string text = walks_header();
   if (!search.sites.empty()) {
     const NormalField field(surface);

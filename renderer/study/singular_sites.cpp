@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/rational.h"
-#include "renderer/continuity/regularity.h"
 #include "renderer/normals/direction.h"
 #include "renderer/normals/estimator.h"
 
@@ -22,8 +21,8 @@ double snapped(double x, double close) {
   return std::abs(x) < close ? 0.0 : std::abs(x - 1.0) < close ? 1.0 : x;
 }
 
-// Where a zero that the search polished is meant to lie: at a corner, if that is one; on the boundary, if it
-// is there to some roundings. Zeros of higher order are found to a root of those only.
+// Where a zero that was found without proof is meant to lie: at a corner, if that is one; on the boundary, if
+// it is there to some roundings. Zeros of higher order are found to a root of those only.
 dvec2 placed(const Net& net, dvec2 found) {
   const dvec2 corner(snapped(found.x, 1e-4), snapped(found.y, 1e-4));
   const bool ends = corner.x == std::round(corner.x) && corner.y == std::round(corner.y);
@@ -94,25 +93,33 @@ SiteSearch singular_sites(const Surface& surface) {
   for (std::size_t k = 0; k < surface.patches.size(); ++k) {
     const Net& net = surface.patches[k];
     const int patch = static_cast<int>(k);
-    std::vector<dvec2> places;
-    const auto add = [&](dvec2 p) {
-      for (const dvec2& known : places)
-        if (glm::distance(known, p) < 1e-6) return;
-      places.push_back(p);
+    const std::size_t first = search.sites.size();
+    const auto add = [&](dvec2 p, SingularPoint::Proof proof, double within) {
+      for (std::size_t s = first; s < search.sites.size(); ++s)
+        if (glm::distance(search.sites[s].at, p) < 1e-6) return;
+      search.sites.push_back(site_at(net, patch, p));
+      search.sites.back().proof = proof;
+      search.sites.back().within = within;
+      // Where N's derivative has rank two (Whitney 1944).
+      if (proof == SingularPoint::Proof::unique) search.sites.back().kind = "cross-cap";
     };
+    constexpr auto exact = SingularPoint::Proof::exact;
     for (const Side& side : sides_of(net)) {
       const dvec2 middle = 0.5 * (side.ends[0] + side.ends[1]);
       if (germ_of(net, middle).side_order == 0) continue;
-      add(middle);
-      add(side.ends[0]);
-      add(side.ends[1]);
+      add(middle, exact, 0.0);
+      add(side.ends[0], exact, 0.0);
+      add(side.ends[1], exact, 0.0);
     }
     Surface alone;
     alone.patches.push_back(net);
     const Regularity found = regularity_of(alone, pieces_a_patch);
-    for (const SingularPoint& s : found.singular) add(placed(net, {s.u, s.v}));
-    (found.verdict == Regularity::Verdict::undecided ? search.undecided : search.proved) += 1;
-    for (const dvec2& p : places) search.sites.push_back(site_at(net, patch, p));
+    for (const SingularPoint& s : found.singular) {
+      const dvec2 at(s.u, s.v);
+      add(s.proof == SingularPoint::Proof::none ? placed(net, at) : at, s.proof, s.within);
+    }
+    (found.complete ? search.proved : search.undecided) += 1;
+    search.pieces += found.pieces;
   }
   return search;
 }

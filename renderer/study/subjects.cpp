@@ -115,7 +115,7 @@ const std::vector<Subject>& subjects() {
       {"gc1_cubic", R"({ "type": "gc_octahedron" })", false},
       {"gc1_rational", R"({ "type": "gc_octahedron", "basis": "rational" })", false},
       {"gc_cube", R"({ "type": "gc_complex" })", false},
-      {"gc_torus", R"({ "type": "gc_complex", "complex": "torus" })", false},
+      {"gc_torus", R"({ "type": "gc_complex", "complex": { "torus": [3, 2] } })", false},
       {"gc_triangles", gc_triangles, false},
       {"cross_caps",
        R"({ "type": "gc_octahedron", "control_points": { "h6": [-2, 1, 0], "h5": [0, 0, 0], "h7": [1, -2, -1] } })",

@@ -110,6 +110,9 @@ TEST_CASE("info tells how patches meet and where they are singular", "[command][
   CHECK(objects[0]["continuity"]["tangent_degrees"]["worst"].get<double>() < 1e-10);
   CHECK(objects[0]["regularity"]["verdict"] == "singular");
   CHECK(objects[0]["regularity"]["singular"].size() == 2);
+  CHECK(objects[0]["regularity"]["complete"] == true);
+  CHECK(objects[0]["regularity"]["singular"][0]["proof"] == "unique");
+  CHECK(objects[0]["regularity"]["singular"][0]["within"].get<double>() < 1e-11);
   CHECK(objects[0]["regularity"]["least_certified"].is_null());
   CHECK(objects[1]["regularity"]["verdict"] == "regular");
   CHECK(objects[1]["regularity"]["least_certified"].get<double>() > 0.0);
@@ -117,7 +120,8 @@ TEST_CASE("info tells how patches meet and where they are singular", "[command][
   const std::string text = info(folder, {"--no-mass"}).out;
   CHECK(text.find("    12 seams, 0 open sides; the worst of 33 places on each seam:\n      tangent planes "
                   "differ by ") != std::string::npos);
-  CHECK(text.find("    singular: Su x Sv vanishes at 2 points\n      patch 2 at (u, v) = (0.447842876926, "
+  CHECK(text.find("    singular: Su x Sv vanishes at 2 points, and nowhere else\n      patch 2 at "
+                  "(u, v) = (0.447842876926, "
                   "0.142384548227), (") != std::string::npos);
   CHECK(text.find("    regular: |Su x Sv| is at least ") != std::string::npos);
   const std::string less = info(folder, {"--no-mass", "--no-continuity"}).out;

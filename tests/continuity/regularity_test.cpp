@@ -171,11 +171,75 @@ TEST_CASE("the cross-caps of Figure 3 (d) are found", "[regularity]") {
   CHECK(r.singular[1].patch == 7);
   CHECK(std::abs(r.singular[1].u - 0.582178269665) < 1e-12);
   CHECK(std::abs(r.singular[1].v - 0.403543360584) < 1e-12);
+  CHECK(r.complete);
   for (const SingularPoint& s : r.singular) {
+    CHECK(s.proof == SingularPoint::Proof::unique);
+    CHECK(s.within < 1e-11);
     const SurfaceJet jet = surface_jet(surface.patches[static_cast<std::size_t>(s.patch)], s.u, s.v);
     CHECK(glm::length(glm::cross(jet.du, jet.dv)) < 1e-11 * r.largest_found);
     CHECK(glm::distance(jet.point, s.point) < 1e-13);
   }
+}
+
+// (s t, s, t^3 / 3 - e^2 t) with t = u - 1/3 and s = v - 2/5: cross-caps at s = 0, t = e and t = -e.
+Surface two_cross_caps(double e) {
+  TensorNet net(3, 1);
+  for (int i = 0; i <= 3; ++i) {
+    double t[3], linear = 0.0;
+    for (int k = 0; k < 3; ++k) t[k] = (i > k ? 1 : 0) - 1.0 / 3.0, linear += t[k] / 3.0;
+    for (int j = 0; j <= 1; ++j) {
+      const double s = j - 0.4;
+      net.at(i, j) = dvec4(s * linear, s, t[0] * t[1] * t[2] / 3.0 - e * e * linear, 1);
+    }
+  }
+  Surface surface;
+  surface.patches.emplace_back(net);
+  return surface;
+}
+
+TEST_CASE("simple zeros are proved to be alone, and where they are said to be", "[regularity]") {
+  for (const double e : {0.25, 0.05, 1e-3}) {
+    CAPTURE(e);
+    const Regularity r = regularity_of(two_cross_caps(e), 20000);
+    CHECK(r.complete);
+    REQUIRE(r.singular.size() == 2);
+    for (const SingularPoint& s : r.singular) {
+      CHECK(s.proof == SingularPoint::Proof::unique);
+      CHECK(s.within < 1e-11 / e);
+      const double t = s.u - 1.0 / 3.0;
+      CHECK(glm::distance(dvec2(std::abs(t), s.v), dvec2(e, 0.4)) < s.within);
+    }
+    CHECK((r.singular[0].u - 1.0 / 3.0) * (r.singular[1].u - 1.0 / 3.0) < 0.0);
+  }
+  // They have become one of another kind, of which Kantorovich's theorem knows nothing.
+  const Regularity both = regularity_of(two_cross_caps(0.0), 20000);
+  CHECK_FALSE(both.complete);
+  CHECK(both.verdict == Verdict::singular);
+  for (const SingularPoint& s : both.singular) CHECK(s.proof == SingularPoint::Proof::none);
+  // Without any: the sign of e^2 turned around.
+  Surface none = two_cross_caps(0.0);
+  for (dvec4& p : points_of(none.patches[0])) p.z += 0.01 * p.x;
+  for (int i = 0; i <= 3; ++i)
+    for (int j = 0; j <= 1; ++j)
+      std::get<TensorNet>(none.patches[0]).at(i, j).z += 1e-4 * (i / 3.0 - 1.0 / 3.0);
+  CHECK(regularity_of(none, 20000).verdict == Verdict::regular);
+}
+
+TEST_CASE("zeros at corners are exact, and all that there are", "[regularity]") {
+  for (const char* text : {R"({"type": "sphere_cap", "z_max": 0})",
+                           R"({"type": "sphere_tiling", "topology": "octahedron_pairs"})",
+                           R"({"type": "sphere_tiling", "topology": "hemispheres"})"}) {
+    CAPTURE(text);
+    const Regularity r = regularity_of(build_family(text), 20000);
+    CHECK(r.complete);
+    CHECK(r.pieces < 100);
+    for (const SingularPoint& s : r.singular) {
+      CHECK(s.proof == SingularPoint::Proof::exact);
+      CHECK((s.u == 0.0 || s.u == 1.0));
+      CHECK((s.v == 0.0 || s.v == 1.0));
+    }
+  }
+  CHECK_FALSE(regularity_of(cusp(0.5), 5000).complete);
 }
 
 TEST_CASE("the proved least |Su x Sv| is below all samples and half of the least of them", "[regularity]") {

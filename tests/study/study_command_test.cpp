@@ -53,7 +53,7 @@ TEST_CASE("a study of corners writes tables and a page that agree", "[study]") {
   CHECK(slopes.size() == 3 * 7);
   const std::string page = read_text_file(folder + "/index.html");
   CHECK(has(page, "<code>rondure study corner-normals --families hemispheres,cube,octants --quick</code>"));
-  CHECK(has(page, "cube: 6 patches, 0 singular points"));
+  CHECK(has(page, "<tr><td>cube</td><td>6</td><td>0</td><td>proved on 6 pieces</td></tr>"));
   // Every number of the slopes' tables, row by row, as the page writes numbers.
   for (std::size_t k = 0; k < slopes.size(); ++k) {
     const double slope = slopes.number(k, "slope");
