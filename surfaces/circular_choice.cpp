@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/projective/orientation.h"
+#include "renderer/projective/positive_shape.h"
 
 namespace rondure {
 namespace {
+
+constexpr double most_extreme_ratio = 1e6;
 
 // With d/du x d/dv turned round.
 Preimage mirrored(const Preimage& preimage) {
@@ -31,6 +35,39 @@ bool weights_positive(const Net& net) {
   return std::all_of(points.begin(), points.end(), [](const dvec4& p) { return p.w > 0.0; });
 }
 
+// The image at the first shape of positive weights in any of the families, and notes on it, or on why there
+// is none.
+std::optional<Net> sought(const std::vector<const PreimageFamily*>& families, std::vector<Note>& notes) {
+  using Outcome = PositiveShape::Outcome;
+  bool proved = true;
+  for (const PreimageFamily* family : families) {
+    const PositiveShape found = positive_shape(*family);
+    proved = proved && found.outcome == Outcome::none;
+    if (found.outcome != Outcome::found) continue;
+    Net net = sphere_image(preimage_at(*family, found.shape));
+    if (!weights_positive(net)) continue;
+    notes.push_back(
+        {"positive_weights", 1, "found at the shape that follows, not where ratios are 1 and turns 0"});
+    for (std::size_t k = 0; k < family->ratios + family->turns; ++k) {
+      const bool ratio = k < family->ratios;
+      notes.push_back(
+          {fmt::format("shape_{}", k),
+           static_cast<double>(ratio ? found.shape.ratio[k]
+                                     : found.shape.turn[k - family->ratios] * degrees_per_radian),
+           fmt::format("number {} of \"shape\", {}", k, ratio ? "a ratio" : "a turn in degrees")});
+    }
+    return net;
+  }
+  notes.push_back(
+      {"positive_weights", 0,
+       proved
+           ? fmt::format(
+                 "weights of both signs: no shape has positive ones, proved for ratios from 1/{0:g} to {0:g}",
+                 widest_ratio)
+           : "weights of both signs: no shape of positive ones was found, nor proved not to exist"});
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Root> roots_of(const Complex& holonomy) {
@@ -47,20 +84,73 @@ bool all_straight(const std::vector<SphereArc>& arcs) {
   return true;
 }
 
-Surface best_image(const Params& params, const std::vector<Preimage>& candidates) {
+std::optional<GivenShape> read_shape(Params& params, std::size_t ratios, std::size_t turns) {
+  const Value* value = params.raw("shape");
+  if (!value) return std::nullopt;
+  const std::size_t most = ratios + turns;
+  std::vector<Value> items = value->items;
+  if (value->kind == Value::Kind::number) items = {*value};
+  const std::string form = fmt::format("a positive number{}, ratios from {:g} to {:g}{}",
+                                       most > 1 ? fmt::format(", or an array of {}", most) : "",
+                                       1 / most_extreme_ratio, most_extreme_ratio,
+                                       turns == 0   ? ""
+                                       : turns == 1 ? " and then a turn in degrees"
+                                                    : " and then two turns in degrees");
+  if (items.size() != 1 && items.size() != most)
+    params.fail(*value, fmt::format("\"shape\" must be {}", form));
+  GivenShape given{items.size(), {}};
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const double number = items[k].number;
+    const bool ratio = k < ratios;
+    if (items[k].kind != Value::Kind::number || !std::isfinite(number) ||
+        (ratio ? !(number >= 1 / most_extreme_ratio && number <= most_extreme_ratio)
+               : !(std::abs(number) < 360)))
+      params.fail(items[k], fmt::format("\"shape\" must be {}", form));
+    if (ratio)
+      given.shape.ratio[k] = number;
+    else
+      given.shape.turn[k - ratios] = number / degrees_per_radian;
+  }
+  return given;
+}
+
+ParameterDoc shape_doc(const std::string& meaning, std::size_t count) {
+  return {
+      "shape", fmt::format("number > 0, or array of {} numbers", count), "as found",
+      meaning +
+          ". These move parameters, not the surface. Without it all ratios are 1 and turns 0 if weights are "
+          "positive then, and are sought if not; rondure info tells what was found"};
+}
+
+Surface best_image(const Params& params, const std::vector<PreimageFamily>& families,
+                   const std::optional<GivenShape>& given) {
   Surface surface;
-  for (const Preimage& candidate : candidates) {
-    if (!regularity(candidate).regular) continue;
-    Net net = sphere_image(candidate);
+  std::vector<Preimage> first;
+  std::vector<const PreimageFamily*> regular;
+  for (const PreimageFamily& family : families) {
+    const Shape shape = given ? given->shape : Shape{};
+    if (!within_half_turns(family, shape)) continue;
+    first.push_back(preimage_at(family, shape));
+    if (!regularity(first.back()).regular) continue;
+    regular.push_back(&family);
+    Net net = sphere_image(first.back());
     const bool positive = weights_positive(net);
     if (surface.patches.empty() || positive) surface.patches = {std::move(net)};
-    if (positive) break;
+    if (positive) return surface;
+  }
+  if (first.empty())
+    params.fail("shape",
+                "these turns take the phase of a side past 180 degrees, where the patch has a base point");
+  if (!given) {
+    if (regular.empty()) {
+      for (const PreimageFamily& family : families) regular.push_back(&family);
+    }
+    if (auto found = sought(regular, surface.notes)) surface.patches = {std::move(*found)};
   }
   if (!surface.patches.empty()) return surface;
-  const Preimage& first = candidates.front();
-  if (regularity(mirrored(first)).regular)
+  if (regularity(mirrored(first.front())).regular)
     params.fail("corners", "the corners must run counter-clockwise, seen from outside; these run clockwise");
-  const dvec2 at = regularity(first).worst;
+  const dvec2 at = regularity(first.front()).worst;
   params.fail("corners",
               fmt::format("the patch between these arcs folds, near (u, v) = ({:.4g}, {:.4g}): "
                           "interior angles should be less than 180 degrees and arcs must not cross",

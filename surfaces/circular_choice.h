@@ -1,6 +1,8 @@
 // The choice among the patches that circular arcs bound.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "renderer/api/surface.h"
@@ -20,8 +22,20 @@ std::vector<Root> roots_of(const Complex& holonomy);
 // Whether every corner is straight, at 180 degrees: the holonomy, -1, does not tell this from other corners.
 bool all_straight(const std::vector<SphereArc>& arcs);
 
-// The image of the first candidate that is regular and has positive weights only, or else of the first that
-// is regular. Fails where none is.
-Surface best_image(const Params& params, const std::vector<Preimage>& candidates);
+// "shape": the ratios and turns of the families that have so many, or one number for the first ratio of any;
+// nothing where it is not given.
+struct GivenShape {
+  std::size_t count;  // of numbers
+  Shape shape;
+};
+// `ratios` and `turns` are those of the largest family.
+std::optional<GivenShape> read_shape(Params& params, std::size_t ratios, std::size_t turns);
+ParameterDoc shape_doc(const std::string& meaning, std::size_t count);
+
+// The image of the first family that is regular and has positive weights only, at the shape given, or with
+// all ratios 1 and no turn; else, where none is given, of the first in which a shape of positive weights is
+// found; else of the first that is regular. Fails where none is. Notes tell where the first choice failed.
+Surface best_image(const Params& params, const std::vector<PreimageFamily>& families,
+                   const std::optional<GivenShape>& given);
 
 }  // namespace rondure

@@ -33,21 +33,24 @@ std::string why_not_biquadratic(const SphericalQuad& quad) {
       static_cast<double>(degrees));
 }
 
-std::vector<Preimage> candidates(Params& params, const SphericalQuad& quad) {
+std::vector<PreimageFamily> candidates(Params& params, const SphericalQuad& quad,
+                                       const std::optional<GivenShape>& given) {
   const std::string construction =
       params.choice("construction", {"auto", "biquadratic", "degree_2_4"}, "auto");
   const std::string along = params.choice("quartic", {"auto", "u", "v"}, "auto");
-  const double shape = params.number("shape", 1.0, Range::positive());
-  std::vector<Preimage> list;
-  if (construction != "degree_2_4") {
+  std::vector<PreimageFamily> list;
+  const bool many = given && given->count > 1;
+  if (construction == "biquadratic" && many)
+    params.fail("shape", "\"shape\" of a biquadratic patch must be one number");
+  if (construction != "degree_2_4" && !many) {
     const bool exists = std::abs(std::arg(holonomy(quad))) <= closes;
     if (construction == "biquadratic" && !exists) params.fail("construction", why_not_biquadratic(quad));
-    if (exists) list.emplace_back(bilinear_preimage(quad, shape));
+    if (exists) list.push_back(bilinear_family(quad));
   }
   if (construction != "biquadratic") {
     for (const Root root : roots_of(holonomy(quad))) {
-      if (along != "u") list.emplace_back(linear_quadratic_preimage(quad, root));
-      if (along != "v") list.emplace_back(quadratic_linear_preimage(quad, root));
+      if (along != "u") list.push_back(linear_quadratic_family(quad, root));
+      if (along != "v") list.push_back(quadratic_linear_family(quad, root));
     }
   }
   return list;
@@ -56,7 +59,8 @@ std::vector<Preimage> candidates(Params& params, const SphericalQuad& quad) {
 Surface build(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 4);
   const SphericalQuad quad{{arcs[0], arcs[1], arcs[2], arcs[3]}};
-  Surface surface = best_image(params, candidates(params, quad));
+  const std::optional<GivenShape> given = read_shape(params, 3, 1);
+  Surface surface = best_image(params, candidates(params, quad, given), given);
   surface.notes.push_back({"angle_excess",
                            static_cast<double>(std::arg(holonomy(quad)) * 2 * degrees_per_radian),
                            "degrees by which the interior angles exceed 360, up to 720; degree (2, 2) exists "
@@ -82,9 +86,12 @@ void register_circular_quad(Registry& registry) {
         "weights"},
        {"quartic", "\"auto\", \"u\" or \"v\"", "\"auto\"",
         "of degree_2_4: the direction of degree 4; auto tries v, then u"},
-       {"shape", "number > 0", "1",
-        "of biquadratic: |b00| |b11| / (|b10| |b01|), the one number that is free; moves parameters, not the "
-        "surface"}},
+       shape_doc("|b00| |b11| / (|b10| |b01|) of the preimage's corners; in an array, for degree_2_4 only, "
+                 "then the "
+                 "ratio of the factors of each conic side, u = 0 and 1 or v = 0 and 1, and a turn in degrees "
+                 "of their "
+                 "phases",
+                 4)},
       build});
 }
 

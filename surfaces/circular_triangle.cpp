@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "renderer/api/registry.h"
@@ -29,17 +30,18 @@ std::string why_not_quadratic(const SphericalTriangle& triangle) {
       static_cast<double>(degrees));
 }
 
-std::vector<Preimage> candidates(Params& params, const SphericalTriangle& triangle) {
+std::vector<PreimageFamily> candidates(Params& params, const SphericalTriangle& triangle, bool shaped) {
   const std::string construction = params.choice("construction", {"auto", "quadratic", "degree_4"}, "auto");
-  std::vector<Preimage> list;
-  if (construction != "degree_4") {
+  std::vector<PreimageFamily> list;
+  if (construction == "quadratic" && shaped)
+    params.fail("shape", "a quadratic patch has no \"shape\": all are the same");
+  if (construction != "degree_4" && !shaped) {
     const bool exists = std::abs(std::arg(holonomy(triangle))) <= closes;
     if (construction == "quadratic" && !exists) params.fail("construction", why_not_quadratic(triangle));
-    if (exists) list.emplace_back(linear_preimage(triangle));
+    if (exists) list.push_back(linear_family(triangle));
   }
   if (construction != "quadratic") {
-    for (const Root root : roots_of(holonomy(triangle)))
-      list.emplace_back(quadratic_preimage(triangle, root));
+    for (const Root root : roots_of(holonomy(triangle))) list.push_back(quadratic_family(triangle, root));
   }
   return list;
 }
@@ -47,7 +49,8 @@ std::vector<Preimage> candidates(Params& params, const SphericalTriangle& triang
 Surface build(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 3);
   const SphericalTriangle triangle{{arcs[0], arcs[1], arcs[2]}};
-  Surface surface = best_image(params, candidates(params, triangle));
+  const std::optional<GivenShape> given = read_shape(params, 3, 2);
+  Surface surface = best_image(params, candidates(params, triangle, given.has_value()), given);
   surface.notes.push_back(
       {"angle_excess", static_cast<double>(std::arg(holonomy(triangle)) * 2 * degrees_per_radian),
        "degrees by which the interior angles exceed 180, up to 720; degree 2 exists where it is 0"});
@@ -66,7 +69,11 @@ void register_circular_triangle(Registry& registry) {
        arcs_doc(3),
        {"construction", "\"auto\", \"quadratic\" or \"degree_4\"", "\"auto\"",
         "quadratic: exists where the interior angles add up to 180 degrees; degree_4: exists for all arcs; "
-        "auto: the first of them that is regular, if possible with positive weights"}},
+        "auto: the first of them that is regular, if possible with positive weights"},
+       shape_doc("of degree_4: the ratio of the factors of each side, from corner to corner, then turns in "
+                 "degrees of "
+                 "the phases of the first two",
+                 5)},
       build});
 }
 

@@ -53,18 +53,21 @@ std::array<Spinor, N> joined(const Sides<N>& sides) {
 Complex holonomy(const SphericalQuad& quad) { return around(sides_of(quad.arc)); }
 Complex holonomy(const SphericalTriangle& t) { return around(sides_of(t.arc)); }
 
-TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape) {
+PreimageFamily bilinear_family(const SphericalQuad& quad) {
   const std::array<Spinor, 4> b = joined(sides_of(quad.arc));
-  const long double more = std::sqrt(std::sqrt(shape));
-  TensorPreimage p(1, 1);
-  p.at(0, 0) = more * to_point(b[0]);
-  p.at(1, 0) = to_point(b[1]) / more;
-  p.at(1, 1) = more * to_point(b[2]);
-  p.at(0, 1) = to_point(b[3]) / more;
-  return p;
+  TensorPolynomial<ShapedPoint> net(1, 1);
+  net.at(0, 0) = {{b[0], {0.25}}};
+  net.at(1, 0) = {{b[1], {-0.25}}};
+  net.at(1, 1) = {{b[2], {0.25}}};
+  net.at(0, 1) = {{b[3], {-0.25}}};
+  return {net, 1, 0, {}};
 }
 
-TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root) {
+TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape) {
+  return std::get<TensorPreimage>(preimage_at(bilinear_family(quad), {{shape}}));
+}
+
+PreimageFamily linear_quadratic_family(const SphericalQuad& quad, Root root) {
   const auto [corner, g] = sides_of(quad.arc);
   const Complex h = g[0] * g[1] * g[2] * g[3];
   // The straight sides u = 0 and u = 1 from v = 0; times a linear factor they end in phases that the side
@@ -73,49 +76,83 @@ TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root) {
   const Spinor low[2] = {corner[0], g[0] * corner[1]};
   const Spinor high[2] = {(1.0L / g[3]) * corner[3], g[0] * g[1] * corner[2]};
   const Complex factor[2] = {c, d};
-  TensorPreimage p(1, 2);
+  TensorPolynomial<ShapedPoint> net(1, 2);
   for (int i = 0; i < 2; ++i) {
-    p.at(i, 0) = to_point(low[i]);
-    p.at(i, 1) = to_point(Complex(0.5L) * (high[i] + factor[i] * low[i]));
-    p.at(i, 2) = to_point(factor[i] * high[i]);
+    const double more = i == 0 ? 0 : 0.5, first = i == 0 ? 0.5 : 0, second = 0.5 - first;
+    net.at(i, 0) = {{low[i]}};
+    net.at(i, 1) = {{Complex(0.5L) * high[i], {more, -first, -second}},
+                    {Complex(0.5L) * (factor[i] * low[i]), {more, first, second}, {1}}};
+    net.at(i, 2) = {{factor[i] * high[i], {2 * more}, {1}}};
   }
-  return p;
+  return {net, 3, 1, {{std::arg(c), {1}}, {std::arg(d), {1}}}};
+}
+
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root) {
+  return std::get<TensorPreimage>(preimage_at(linear_quadratic_family(quad, root), {}));
+}
+
+PreimageFamily quadratic_linear_family(const SphericalQuad& quad, Root root) {
+  // The same with corner 1 first: its (u, v) are our (v, 1 - u).
+  const auto& arc = quad.arc;
+  PreimageFamily family = linear_quadratic_family({{arc[1], arc[2], arc[3], arc[0]}}, root);
+  const auto from = std::get<TensorPolynomial<ShapedPoint>>(family.net);
+  TensorPolynomial<ShapedPoint> net(2, 1);
+  for (int i = 0; i <= 2; ++i) {
+    for (int j = 0; j <= 1; ++j) net.at(i, j) = from.at(j, 2 - i);
+  }
+  // Conics run the other way: all ratios are those of that quad inverted, and the turn is reversed.
+  for (ShapedPoint& point : net.coefficients) {
+    for (ShapedTerm& term : point.terms) {
+      for (double& power : term.power) power = -power;
+      term.turns[0] = -term.turns[0];
+    }
+  }
+  for (SidePhase& side : family.sides) side.turns[0] = -side.turns[0];
+  family.net = net;
+  return family;
 }
 
 TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root) {
-  // The same with corner 1 first: its (u, v) are our (v, 1 - u).
-  const auto& arc = quad.arc;
-  const TensorPreimage from = linear_quadratic_preimage({{arc[1], arc[2], arc[3], arc[0]}}, root);
-  TensorPreimage p(2, 1);
-  for (int i = 0; i <= 2; ++i) {
-    for (int j = 0; j <= 1; ++j) p.at(i, j) = from.at(j, 2 - i);
-  }
-  return p;
+  return std::get<TensorPreimage>(preimage_at(quadratic_linear_family(quad, root), {}));
+}
+
+PreimageFamily linear_family(const SphericalTriangle& triangle) {
+  const std::array<Spinor, 3> b = joined(sides_of(triangle.arc));
+  TrianglePolynomial<ShapedPoint> net(1);
+  net.at(1, 0) = {{b[0]}};
+  net.at(0, 1) = {{b[1]}};
+  net.at(0, 0) = {{b[2]}};
+  return {net, 0, 0, {}};
 }
 
 TrianglePreimage linear_preimage(const SphericalTriangle& triangle) {
-  const std::array<Spinor, 3> b = joined(sides_of(triangle.arc));
-  TrianglePreimage p(1);
-  p.at(1, 0) = to_point(b[0]);
-  p.at(0, 1) = to_point(b[1]);
-  p.at(0, 0) = to_point(b[2]);
-  return p;
+  return std::get<TrianglePreimage>(preimage_at(linear_family(triangle), {}));
 }
 
-TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root) {
+PreimageFamily quadratic_family(const SphericalTriangle& triangle, Root root) {
   const auto [corner, g] = sides_of(triangle.arc);
   // Each straight side times a linear factor from 1 to h, so that three of them close.
   const Complex h = std::conj(root_of(g[0] * g[1] * g[2], 3, root));
-  TrianglePreimage p(2);
+  TrianglePolynomial<ShapedPoint> net(2);
   const int at[3][2] = {{2, 0}, {0, 2}, {0, 0}}, between[3][2] = {{1, 1}, {0, 1}, {1, 0}};
+  // Of the phases before each side, and of its own.
+  const std::array<int, most_turns> before[3] = {{0, 0}, {1, 0}, {1, 1}}, after[3] = {{1, 0}, {1, 1}, {0, 0}};
   Complex phase = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Spinor start = corner[k], end = g[k] * corner[(k + 1) % 3];
-    p.at(at[k][0], at[k][1]) = to_point(phase * start);
-    p.at(between[k][0], between[k][1]) = to_point(Complex(0.5L) * phase * (h * start + end));
+    const Spinor start = phase * corner[k], end = phase * g[k] * corner[(k + 1) % 3];
+    std::array<double, most_ratios> more{}, less{};
+    more[k] = 0.5, less[k] = -0.5;
+    net.at(at[k][0], at[k][1]) = {{start, {}, before[k]}};
+    net.at(between[k][0], between[k][1]) = {{Complex(0.5L) * (h * start), more, after[k]},
+                                            {Complex(0.5L) * end, less, before[k]}};
     phase *= h * g[k];
   }
-  return p;
+  const long double even = std::arg(h);
+  return {net, 3, 2, {{even, {1, 0}}, {even, {0, 1}}, {even, {-1, -1}}}};
+}
+
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root) {
+  return std::get<TrianglePreimage>(preimage_at(quadratic_family(triangle, root), {}));
 }
 
 }  // namespace rondure

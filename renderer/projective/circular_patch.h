@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/projective/preimage.h"
+#include "renderer/projective/shaped_preimage.h"
 #include "renderer/projective/spherical_quad.h"
 #include "renderer/projective/spinor.h"
 
@@ -24,9 +25,12 @@ Complex holonomy(const SphericalTriangle& triangle);
 
 // Corners 0 to 3 at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1); corners 0 to 2 of a triangle where u, v, w = 1.
 
+// All patches of one construction between given arcs, as preimages with free numbers. They share the surface
+// and differ in their parameters and weights.
+
 // Of degree (1, 1): the patch of theorem 3.9. What the holonomy lacks from 1, which should be little, is
-// spread over the sides. `shape` > 0 is the one essential parameter, |b00| |b11| / (|b10| |b01|): it moves
-// parameters only.
+// spread over the sides. Free is one ratio, |b00| |b11| / (|b10| |b01|).
+PreimageFamily bilinear_family(const SphericalQuad& quad);
 TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape);
 
 // The same as theorem 3.9's proof makes it, by intersecting planes and projecting lines (lemmas 3.7 and 3.8);
@@ -40,14 +44,26 @@ std::optional<TensorPreimage> bilinear_preimage_by_planes(const SphericalQuad& q
 // argument less a turn, or more.
 enum class Root { least, other };
 
-// Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are quadratic.
+// Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are straight, those
+// at u = 0 and u = 1 conics, each a straight line l(v) times a linear factor c(v). Free are three ratios,
+// |b00| |b12| / (|b10| |b02|) and |c(1)| |l(0)| / (|c(0)| |l(1)|) of the side u = 0 and of u = 1, and a turn:
+// what the phases of both factors change by beyond an even division of the holonomy.
+PreimageFamily linear_quadratic_family(const SphericalQuad& quad, Root root = Root::least);
 TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root = Root::least);
 
-// The same of degree (2, 1), with quadratic sides at u = 0 and u = 1.
+// The same of degree (2, 1), with conics at v = 0 and v = 1: the ratios are |b00| |b21| / (|b20| |b01|) and
+// those of the sides v = 0 and v = 1, along u.
+PreimageFamily quadratic_linear_family(const SphericalQuad& quad, Root root = Root::least);
 TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root = Root::least);
 
-// Of degree 1, for a holonomy of 1 or nearly, and of degree 2 for any arcs.
+// Of degree 1, for a holonomy of 1 or nearly: nothing is free.
+PreimageFamily linear_family(const SphericalTriangle& triangle);
 TrianglePreimage linear_preimage(const SphericalTriangle& triangle);
+
+// Of degree 2, for any arcs. Free are a ratio of each side, as of those of linear_quadratic_family, from
+// corner k to corner k + 1; and two turns: what the phases of the first two sides change by beyond an even
+// division. The third makes up for them.
+PreimageFamily quadratic_family(const SphericalTriangle& triangle, Root root = Root::least);
 TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root = Root::least);
 
 }  // namespace rondure
