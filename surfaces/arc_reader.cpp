@@ -84,8 +84,8 @@ SphereArc read_arc(const Params& params, const Value* value, std::size_t k,
   Params arc(*value, params.source(), name);
   const Value* point = arc.raw("through");
   const Value* plane = arc.raw("plane");
-  if ((point == nullptr) == (plane == nullptr)) arc.fail("give either \"through\" or \"plane\"");
   arc.finish();
+  if ((point == nullptr) == (plane == nullptr)) arc.fail("give either \"through\" or \"plane\"");
   if (plane) return arc_through(p, middle_in_given_plane(arc, *plane, name, p, q), q);
   const lvec3 r = read_direction(params, *point, "\"through\"");
   for (const lvec3& corner : {p, q}) {

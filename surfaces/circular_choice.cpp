@@ -75,6 +75,11 @@ std::vector<Root> roots_of(const Complex& holonomy) {
   return either ? std::vector<Root>{Root::least, Root::other} : std::vector<Root>{Root::least};
 }
 
+double angle_excess(const Complex& holonomy) {
+  const long double argument = std::arg(holonomy) * 2 * degrees_per_radian;
+  return static_cast<double>(std::abs(holonomy + 1.0L) <= closes ? std::abs(argument) : argument);
+}
+
 bool all_straight(const std::vector<SphereArc>& arcs) {
   for (std::size_t k = 0; k < arcs.size(); ++k) {
     const lvec3 in = arcs[k].end_tangent(), out = arcs[(k + 1) % arcs.size()].start_tangent();
@@ -148,13 +153,17 @@ Surface best_image(const Params& params, const std::vector<PreimageFamily>& fami
     if (auto found = sought(regular, surface.notes)) surface.patches = {std::move(*found)};
   }
   if (!surface.patches.empty()) return surface;
+  const Regularity why = regularity(first.front());
+  if (why.flat) params.fail("corners", "these arcs enclose no area: they run along each other");
   if (regularity(mirrored(first.front())).regular)
-    params.fail("corners", "the corners must run counter-clockwise, seen from outside; these run clockwise");
-  const dvec2 at = regularity(first.front()).worst;
+    params.fail(
+        "corners",
+        "the corners must run counter-clockwise, seen from outside, around the region on the left of the "
+        "arcs; these run clockwise around the region that has a patch");
   params.fail("corners",
               fmt::format("the patch between these arcs folds, near (u, v) = ({:.4g}, {:.4g}): "
                           "interior angles should be less than 180 degrees and arcs must not cross",
-                          at.x, at.y));
+                          why.worst.x, why.worst.y));
 }
 
 }  // namespace rondure

@@ -19,6 +19,9 @@ inline constexpr long double closes = 1e-10L;
 // The roots of the holonomy to try: both, where rounding decides which is the lesser.
 std::vector<Root> roots_of(const Complex& holonomy);
 
+// In degrees; 360 where rounding decides whether it is that or -360.
+double angle_excess(const Complex& holonomy);
+
 // Whether every corner is straight, at 180 degrees: the holonomy, -1, does not tell this from other corners.
 bool all_straight(const std::vector<SphereArc>& arcs);
 

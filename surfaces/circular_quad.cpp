@@ -61,8 +61,7 @@ Surface build(Params& params) {
   const SphericalQuad quad{{arcs[0], arcs[1], arcs[2], arcs[3]}};
   const std::optional<GivenShape> given = read_shape(params, 3, 1);
   Surface surface = best_image(params, candidates(params, quad, given), given);
-  surface.notes.push_back({"angle_excess",
-                           static_cast<double>(std::arg(holonomy(quad)) * 2 * degrees_per_radian),
+  surface.notes.push_back({"angle_excess", angle_excess(holonomy(quad)),
                            "degrees by which the interior angles exceed 360, up to 720; degree (2, 2) exists "
                            "where it is 0"});
   return surface;

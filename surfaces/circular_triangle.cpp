@@ -52,7 +52,7 @@ Surface build(Params& params) {
   const std::optional<GivenShape> given = read_shape(params, 3, 2);
   Surface surface = best_image(params, candidates(params, triangle, given.has_value()), given);
   surface.notes.push_back(
-      {"angle_excess", static_cast<double>(std::arg(holonomy(triangle)) * 2 * degrees_per_radian),
+      {"angle_excess", angle_excess(holonomy(triangle)),
        "degrees by which the interior angles exceed 180, up to 720; degree 2 exists where it is 0"});
   return surface;
 }

@@ -92,8 +92,8 @@ class Reader {
     Params arc(*value, params_.source(), name);
     const Value* through = arc.raw("through");
     const Value* plane = arc.raw("plane");
-    if ((through == nullptr) == (plane == nullptr)) arc.fail("give either \"through\" or \"plane\"");
     arc.finish();
+    if ((through == nullptr) == (plane == nullptr)) arc.fail("give either \"through\" or \"plane\"");
     if (plane) {
       const auto n =
           read_numbers<4>(arc, *plane, "\"plane\"", "[a, b, c, d] for the plane a x + b y + c z = d");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
@@ -138,28 +139,58 @@ Regularity positive(const Polynomial& p) {
   return result;
 }
 
-}  // namespace
-
-TensorPolynomial<long double> orientation(const TensorPreimage& p) {
+// The determinants of the derivatives in u and in v with the preimage itself.
+auto determinants(const TensorPreimage& p) {
   // det(psi_u, psi) = m det(high part, low part): one degree less than the product, twice.
   auto in_u = multiply(part(p, 1, 0, 1, 0), part(p, 1, 0, 0, 0), determinant);
   auto in_v = multiply(part(p, 0, 1, 0, 1), part(p, 0, 1, 0, 0), determinant);
   for (Complex& c : in_u.coefficients) c *= p.m;
   for (Complex& c : in_v.coefficients) c *= p.n;
-  return jacobian(in_u, in_v);
+  return std::pair(std::move(in_u), std::move(in_v));
 }
 
-TrianglePolynomial<long double> orientation(const TrianglePreimage& p) {
+auto determinants(const TrianglePreimage& p) {
   const TrianglePreimage in_w = part(p, 0, 0);
   auto in_u = multiply(difference(part(p, 1, 0), in_w), p, determinant);
   auto in_v = multiply(difference(part(p, 0, 1), in_w), p, determinant);
   for (Complex& c : in_u.coefficients) c *= p.n;
   for (Complex& c : in_v.coefficients) c *= p.n;
+  return std::pair(std::move(in_u), std::move(in_v));
+}
+
+template <class Polynomial>
+long double largest_of(const Polynomial& p) {
+  long double largest = 0;
+  for (const auto& c : p.coefficients) largest = std::max(largest, std::abs(c));
+  return largest;
+}
+
+// The share of |psi_u| |psi_v| below which J counts for nothing: corners in doubles tell no more.
+constexpr long double flat_angle = 1e-12L;
+
+}  // namespace
+
+TensorPolynomial<long double> orientation(const TensorPreimage& p) {
+  const auto [in_u, in_v] = determinants(p);
+  return jacobian(in_u, in_v);
+}
+
+TrianglePolynomial<long double> orientation(const TrianglePreimage& p) {
+  const auto [in_u, in_v] = determinants(p);
   return jacobian(in_u, in_v);
 }
 
 Regularity regularity(const Preimage& preimage) {
-  return std::visit([](const auto& p) { return positive(orientation(p)); }, preimage);
+  return std::visit(
+      [](const auto& p) {
+        const auto [in_u, in_v] = determinants(p);
+        const auto j = jacobian(in_u, in_v);
+        Regularity result = positive(j);
+        result.flat = !(largest_of(j) > flat_angle * 4 * largest_of(in_u) * largest_of(in_v));
+        result.regular = result.regular && !result.flat;
+        return result;
+      },
+      preimage);
 }
 
 }  // namespace rondure

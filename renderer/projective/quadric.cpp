@@ -10,8 +10,8 @@ namespace {
 
 using lmat3 = glm::mat<3, 3, long double, glm::defaultp>;
 
-// Relative to what cancelled.
-constexpr long double nothing = 1e-12L;
+// Relative to what cancelled; and to the largest, where a sum that is given has cancelled before.
+constexpr long double nothing = 1e-12L, noise = 1e-15L;
 
 struct Axes {
   lvec3 value;
@@ -39,6 +39,22 @@ Axes principal_axes(lmat3 a) {
     }
   }
   return {{a[0][0], a[1][1], a[2][2]}, turn};
+}
+
+// What v^T A v, and b^T v, may be from rounding alone. The sums of the terms' absolute values count, so that
+// little is lost where axes are along the coordinates and nothing cancels: quadrics may be long.
+long double rounding_of(const lmat3& a, const lvec3& v) {
+  long double sum = 0, largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      sum += std::abs(v[i] * a[i][j] * v[j]);
+      largest = std::max(largest, std::abs(a[i][j]));
+    }
+  }
+  return nothing * sum + noise * largest;
+}
+long double rounding_of(const lvec3& b, const lvec3& v) {
+  return nothing * glm::dot(glm::abs(b), glm::abs(v)) + noise * glm::length(b);
 }
 
 // Axis k last, the others in cyclic order.
@@ -95,7 +111,7 @@ Result along_axis(Axes axes, const lvec3& b, long double d) {
   const lvec3 middle(-in_axes[0] / axes.value[0], -in_axes[1] / axes.value[1], 0);
   const long double squares = glm::dot(in_axes, middle);
   long double level = d + squares;
-  if (!(std::abs(in_axes[2]) > nothing * glm::length(b))) {
+  if (!(std::abs(in_axes[2]) > rounding_of(b, axes.turn[2]))) {
     if (std::abs(level) <= nothing * (std::abs(d) + std::abs(squares))) level = 0;
     if (level == 0) return alike ? "an imaginary pair of planes: a line" : "a pair of planes";
     if (!alike) return "a hyperbolic cylinder";
@@ -118,9 +134,9 @@ Result along_axis(Axes axes, const lvec3& b, long double d) {
 
 Result flat(const Axes& axes, const lvec3& b) {
   const lvec3 in_axes = b * axes.turn;
-  const long double across = std::hypot(in_axes[0], in_axes[1]);
+  const auto counts = [&](int k) { return std::abs(in_axes[k]) > rounding_of(b, axes.turn[k]); };
   if (glm::length(axes.value) == 0) return "a plane or nothing: it has no square terms";
-  return across > nothing * glm::length(b) ? "a parabolic cylinder" : "a pair of parallel planes";
+  return counts(0) || counts(1) ? "a parabolic cylinder" : "a pair of parallel planes";
 }
 
 }  // namespace
@@ -159,11 +175,9 @@ std::variant<Quadric, std::string> classify(const lmat4& matrix) {
   const lmat3 square(matrix);
   const lvec3 b(matrix[3]);
   Axes axes = principal_axes(square);
-  const lvec3 sizes = glm::abs(axes.value);
-  const long double largest = std::max({sizes.x, sizes.y, sizes.z});
   int zeros = 0, zero = 0, other = 0;
   for (int k = 0; k < 3; ++k) {
-    if (sizes[k] <= nothing * largest) {
+    if (std::abs(axes.value[k]) <= rounding_of(square, axes.turn[k])) {
       axes.value[k] = 0;
       ++zeros;
       zero = k;

@@ -96,6 +96,25 @@ TEST_CASE("a diagonal matrix keeps its axes", "[projective]") {
   CHECK(lying.semi_axes == lvec3(1, 0.5L, 2));
 }
 
+// Where axes are those of the coordinates nothing cancels, and small terms count.
+TEST_CASE("long quadrics are not taken for cylinders", "[projective]") {
+  const auto needle = std::get<Quadric>(classify(diagonal(1, 4, 0x1p-46L, -1)));
+  CHECK(needle.kind == QuadricKind::ellipsoid);
+  CHECK(needle.semi_axes == lvec3(1, 0.5L, 0x1p23L));
+  const auto tube = std::get<Quadric>(classify(diagonal(1, 1, -0x1p-46L, -1)));
+  CHECK(tube.kind == QuadricKind::one_sheet);
+  CHECK(tube.semi_axes == lvec3(1, 1, 0x1p23L));
+  lmat4 far = diagonal(1, 1, 0, 0);
+  far[0][3] = far[3][0] = 0x1p44L, far[2][3] = far[3][2] = -0.5L;
+  const auto bowl = std::get<Quadric>(classify(far));
+  CHECK(bowl.kind == QuadricKind::elliptic_paraboloid);
+  CHECK(bowl.semi_axes == lvec3(1, 1, 1));
+  CHECK(bowl.frame[3] == lvec4(-0x1p44L, 0, -0x1p88L, 1));
+  lmat4 sheet = diagonal(1, 0, 0, 0);
+  sheet[0][3] = sheet[3][0] = 0x1p44L, sheet[2][3] = sheet[3][2] = -0.5L;
+  CHECK(std::get<std::string>(classify(sheet)) == "a parabolic cylinder");
+}
+
 TEST_CASE("what is no smooth quadric is named", "[projective]") {
   struct Case {
     lmat4 matrix;

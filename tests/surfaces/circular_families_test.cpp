@@ -138,6 +138,11 @@ TEST_CASE("arcs without the patch asked for say why", "[surfaces]") {
           "take the other arc of one circle");
   refused(q + R"("corners": [[-1,-1,-1],[1,-1,-1],[1,1,-1],[-1,1,-1]]})", "these run clockwise");
   refused(t + R"("corners": [[1,0,0],[0,0,1],[0,1,0]]})", "these run clockwise");
+  // On one great circle, there and back.
+  refused(t + R"("corners": [[1,0,0],[0,1,0],[1,1,0]]})", "enclose no area");
+  refused(t + R"("corners": [[3,1,2],[1,5,1],[4,6,3]]})", "enclose no area");
+  refused(q + R"("corners": [[1,0,0],[1,1,0],[0,1,0],[1,2,0]]})", "enclose no area");
+  refused(q + cube + R"(, "arcs": [{"thruogh": [-1,0,-1]}, null, null, null]})", "did you mean \"through\"");
   // Crosses itself.
   refused(q + R"("corners": [[-1,-1,-1],[1,1,-1],[-1,1,-1],[1,-1,-1]]})", "folds, near (u, v)");
   refused(q + R"("corners": [[-1,-1,-1],[-1,1,-1],[1,1,-1]]})", "an array of four directions");
