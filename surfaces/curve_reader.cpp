@@ -95,6 +95,8 @@ ReadCurve from_preimage(Params& params, bool ruled) {
   std::vector<lvec4> points;
   for (const Value& item : read_list(params, "preimage", 2, "control points").items)
     points.push_back(read_preimage_point(params, item));
+  const long double factor = squaring_factor(points);
+  for (lvec4& p : points) p *= factor;
   const BSpline spline = read_spline(params, std::move(points), max_degree / 2);
   if (ruled) return ruled_curve(spline);
   ReadCurve curve;

@@ -9,7 +9,9 @@ namespace {
 
 Preimage extended(const Net& net) {
   const std::vector<dvec4>& points = points_of(net);
-  const std::vector<lvec4> values(points.begin(), points.end());
+  std::vector<lvec4> values(points.begin(), points.end());
+  const long double factor = squaring_factor(values);
+  for (lvec4& p : values) p *= factor;
   if (const auto* t = std::get_if<TensorNet>(&net)) return TensorPreimage(t->m, t->n, values);
   return TrianglePreimage(std::get<TriangleNet>(net).n, values);
 }
@@ -34,8 +36,8 @@ std::vector<Preimage> read_preimages(Params& params, std::string_view key, bool 
   return preimages;
 }
 
-ParameterDoc preimages_doc(const char* key) {
-  return {key, "array of {\"kind\": \"tensor\" or \"triangle\", \"degree\", \"net\"}", "",
+ParameterDoc preimages_doc(const char* key, const char* fallback) {
+  return {key, "array of {\"kind\": \"tensor\" or \"triangle\", \"degree\", \"net\"}", fallback,
           "control points are [p0, p1, p2, p3], p0 first; nets and degrees (at most 12) are written as in "
           "\"bezier\". The four coordinates must not vanish together"};
 }

@@ -13,6 +13,7 @@ namespace rondure {
 // image under delta (or, `ruled`, under ruled_image) is no point, and names them.
 std::vector<Preimage> read_preimages(Params& params, std::string_view key, bool ruled);
 
-ParameterDoc preimages_doc(const char* key);
+// `fallback` is empty where the key is required.
+ParameterDoc preimages_doc(const char* key, const char* fallback = "");
 
 }  // namespace rondure

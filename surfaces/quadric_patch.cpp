@@ -168,17 +168,16 @@ void register_quadric_patch(Registry& registry) {
   SurfaceFamily family{
       "quadric_patch",
       "patches of any ellipsoid, hyperboloid or paraboloid, by projective maps (Dietz, Hoschek, Juettler "
-      "1993, "
-      "section 2.3)",
+      "1993, section 2.3): given as one of surface, preimage, rulings and corners",
       {quadric_doc(),
        semi_axes_doc(),
        matrix_doc(),
-       {"surface", "object", "",
+       {"surface", "object", "none",
         "patches of the sphere to be mapped there, with \"type\" and the parameters of circular_quad, "
         "sphere_tiling and so on. two_sheets shows the southern hemisphere as its upper sheet; on "
         "elliptic_paraboloid the north pole goes to infinity. Not for ruled quadrics"},
-       preimages_doc("preimage"),
-       {"rulings", "two intervals [low, high]", "",
+       preimages_doc("preimage", "none"),
+       {"rulings", "two intervals [low, high]", "none",
         "of a ruled quadric: a bilinear patch between straight lines. one_sheet: angles s, t in degrees, "
         "with "
         "longitude s + t and z/c = tan(s - t); hyperbolic_paraboloid: numbers, with x/a = (s + t)/2, y/b = "

@@ -74,7 +74,7 @@ ParameterDoc quadric_doc() {
 ParameterDoc semi_axes_doc() { return {"semi_axes", "three numbers > 0", "[1, 1, 1]", "a, b and c"}; }
 
 ParameterDoc matrix_doc() {
-  return {"matrix", "4x4 symmetric matrix, as rows", "",
+  return {"matrix", "4x4 symmetric matrix, as rows", "none",
           "instead of quadric and semi_axes: B of x^T B x = 0 with x = (x, y, z, 1). The kind is found from "
           "it, with frame and semi-axes; cones, cylinders, planes and imaginary quadrics are refused"};
 }

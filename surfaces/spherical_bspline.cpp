@@ -31,6 +31,8 @@ void read_net(Params& params, BSplineSurface& surface) {
     surface.columns = row.items.size();
     for (const Value& point : row.items) surface.points.push_back(read_preimage_point(params, point));
   }
+  const long double factor = squaring_factor(surface.points);
+  for (lvec4& p : surface.points) p *= factor;
 }
 
 BSplineSurface read_surface(Params& params) {

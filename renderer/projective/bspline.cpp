@@ -38,7 +38,8 @@ std::string knot_defect(int degree, const std::vector<long double>& knots, std::
     if (equal > static_cast<std::size_t>(degree) + 1)
       return fmt::format("knot {} is repeated more than {} times", k, degree + 1);
     if (equal > static_cast<std::size_t>(degree) && k < points && k > static_cast<std::size_t>(degree))
-      return fmt::format("knot {} is repeated more than {} times, which would tear it apart", k, degree);
+      return fmt::format("knot {} is repeated more than {}, which would tear it apart", k,
+                         degree == 1 ? "once" : fmt::format("{} times", degree));
   }
   if (points <= static_cast<std::size_t>(degree))
     return fmt::format("degree {} needs {} control points at least", degree, degree + 1);

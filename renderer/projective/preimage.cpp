@@ -30,6 +30,15 @@ auto rounded(const Polynomial& image, const lmat4& map) {
 
 }  // namespace
 
+long double squaring_factor(const std::vector<lvec4>& points) {
+  long double largest = 0;
+  for (const lvec4& p : points) {
+    for (int d = 0; d < 4; ++d) largest = std::max(largest, std::abs(p[d]));
+  }
+  const bool usual = largest == 0 || (largest > 0x1p-100L && largest < 0x1p100L);
+  return usual ? 1.0L : std::ldexp(1.0L, -std::ilogb(largest));
+}
+
 Net sphere_image(const Preimage& preimage) {
   return quadric_image(preimage, {QuadricKind::ellipsoid, lvec3(1), lmat4(1)});
 }

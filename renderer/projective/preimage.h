@@ -15,6 +15,10 @@ using TensorPreimage = TensorPolynomial<lvec4>;
 using TrianglePreimage = TrianglePolynomial<lvec4>;
 using Preimage = std::variant<TensorPreimage, TrianglePreimage>;
 
+// A power of two by which to multiply all points of a preimage, which does not change its image: 1 where the
+// squares of the largest coordinate are doubles, with room for what is computed from them.
+long double squaring_factor(const std::vector<lvec4>& points);
+
 // The image under delta, on the unit sphere: twice the degree.
 Net sphere_image(const Preimage& preimage);
 

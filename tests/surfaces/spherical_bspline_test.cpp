@@ -110,6 +110,94 @@ TEST_CASE("pieces lie on the sphere, share their edges and are as smooth as thei
   CHECK(shared == 2 * 2 * 3 + 2 * 2 * 5 + 2 * 2 * 7);
 }
 
+// A knot of multiplicity m keeps the derivatives up to order degree - m, and no more (section 4; equation 35
+// and the sentence before it). Homogeneous derivatives in the spline's parameter are compared from both
+// sides.
+TEST_CASE("knots of any multiplicity and spacing leave the derivatives that they should", "[surfaces]") {
+  NetMaker make(83);
+  WorstCase kept;
+  int broken = 0, knots_seen = 0;
+  for (int degree = 1; degree <= 4; ++degree) {
+    for (int multiplicity = 1; multiplicity <= degree; ++multiplicity) {
+      for (const bool along_u : {true, false}) {
+        // One inner knot, at a third.
+        std::string knots = "[";
+        for (int k = 0; k <= degree; ++k) knots += "-1, ";
+        for (int k = 0; k < multiplicity; ++k) knots += "0.5, ";
+        for (int k = 0; k <= degree; ++k) knots += k < degree ? "3.5, " : "3.5]";
+        const double before = 1.5, after = 3.0;
+        const std::string plain = "[0, 0, 1, 1]";
+        const int points = degree + 1 + multiplicity;
+        const Surface surface = build_family(fmt::format(
+            R"({{"type": "spherical_bspline", "degree": [{}, {}], "net": {}, "knots": [{}, {}]}})",
+            along_u ? degree : 1, along_u ? 1 : degree,
+            along_u ? random_net(make, points, 2) : random_net(make, 2, points), along_u ? knots : plain,
+            along_u ? plain : knots));
+        REQUIRE(surface.patches.size() == 2);
+        ++knots_seen;
+        const auto &a = std::get<TensorNet>(surface.patches[0]), &b = std::get<TensorNet>(surface.patches[1]);
+        const int n = 2 * degree;
+        const auto at = [&](const TensorNet& net, int k) { return along_u ? net.at(k, 1) : net.at(1, k); };
+        double jump_after = 0.0;
+        for (int order = 0; order <= degree - multiplicity + 1; ++order) {
+          dvec4 left(0.0), right(0.0);
+          double size = 0.0;
+          for (int r = 0; r <= order; ++r) {
+            const double factor = ((order - r) % 2 == 0 ? 1.0 : -1.0) * binomial(order, r);
+            const dvec4 low = factor / std::pow(before, order) * at(a, n - order + r),
+                        high = factor / std::pow(after, order) * at(b, r);
+            left += low, right += high;
+            size += glm::length(low) + glm::length(high);
+          }
+          const double jump = glm::length(left - right);
+          // Some roundings of each control point.
+          if (order <= degree - multiplicity)
+            kept.add(jump, 16 * 0x1p-53 * size, [&] {
+              return fmt::format("degree {}, knot of {}, order {}", degree, multiplicity, order);
+            });
+          else
+            jump_after = jump / size;
+        }
+        broken += jump_after > 1e-9;  // rounding: some 1e-15
+      }
+    }
+  }
+  INFO(kept.text());
+  CHECK(kept.failures() == 0);
+  CHECK(kept.count() == 2 * (1 + 3 + 6 + 10));
+  CHECK(knots_seen == 2 * 10);
+  CHECK(broken == knots_seen);
+}
+
+TEST_CASE("the size of a net in projective space is of no matter", "[surfaces]") {
+  const auto scaled = [](const char* form, double factor) {
+    std::string points[4];
+    const double base[4][4] = {
+        {1, -0.5, -0.4, 0}, {1, 0.5, -0.5, 0.1}, {1.2, -0.4, 0.5, 0}, {1, 0.6, 0.5, 0}};
+    for (int k = 0; k < 4; ++k)
+      points[k] = fmt::format("[{}, {}, {}, {}]", base[k][0] * factor, base[k][1] * factor,
+                              base[k][2] * factor, base[k][3] * factor);
+    return build_family(fmt::format(fmt::runtime(form), points[0], points[1], points[2], points[3]));
+  };
+  for (const char* form :
+       {R"({{"type": "spherical_bspline", "degree": [1, 1], "net": [[{}, {}], [{}, {}]]}})",
+        R"({{"type": "projected_net", "patches": [{{"degree": [1, 1], "net": [[{}, {}], [{}, {}]]}}]}})",
+        R"({{"type": "curve", "preimage": [{}, {}, {}, {}]}})"}) {
+    INFO(form);
+    const Surface usual = scaled(form, 1.0);
+    // Powers of two change no bit.
+    for (const double factor : {0x1p900, 0x1p-900}) {
+      const Surface other = scaled(form, factor);
+      REQUIRE(other.patches.size() == usual.patches.size());
+      double off = 0.0;
+      for (std::size_t k = 0; k < usual.patches.size(); ++k)
+        off = std::max(
+            off, glm::distance(net_point(usual.patches[k], 0.3, 0.6), net_point(other.patches[k], 0.3, 0.6)));
+      CHECK(off < 1e-13);
+    }
+  }
+}
+
 TEST_CASE("B-splines without a surface are refused", "[surfaces]") {
   const std::string net = R"("net": [[[1,0,0,0],[1,0,1,0],[1,0,2,0]],[[1,1,0,0],[1,1,1,0],[1,1,2,0]]])";
   const auto refused = [](const std::string& rest, const std::string& part) {
