@@ -1,5 +1,6 @@
 // Rational Bezier and B-spline curves, and curves on the unit sphere (Dietz, Hoschek, Juettler 1993, sections
 // 3.4, 3.6 and 4), drawn as round tubes.
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
@@ -34,9 +35,11 @@ void add_guides(const std::vector<dvec4>& polygon, Surface& surface) {
   for (const char* part : {"boundary", "control_surface", "isolines"}) surface.guides[part];
   std::vector<Guide>& legs = surface.guides["net"];
   constexpr double point_balls = 2.0;
+  // A control point at infinity, such as that of half a circle, may have been rounded.
+  const auto finite = [](const dvec4& p) { return std::abs(p.w) > 1e-9 * glm::length(dvec3(p)); };
   for (std::size_t k = 0; k + 1 < polygon.size(); ++k) {
     const dvec4 &from = polygon[k], &to = polygon[k + 1];
-    if (from.w != 0.0 && to.w != 0.0) legs.push_back({{from / from.w, to / to.w}, point_balls});
+    if (finite(from) && finite(to)) legs.push_back({{from / from.w, to / to.w}, point_balls});
   }
 }
 

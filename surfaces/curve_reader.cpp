@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "renderer/projective/sphere_curve.h"
@@ -184,15 +186,21 @@ ReadCurve on_circle(Params& params, const char* key) {
   const Value& list = *params.raw(key);
   if (p.size() != 3) params.fail(list, fmt::format("\"{}\" must be three directions, [x, y, z] each", key));
   for (std::size_t k = 0; k < 3; ++k) must_differ(params, list.items[k], p[k], p[(k + 1) % 3]);
-  ReadCurve curve = arcs_of(circle_through(p[0], p[1], p[2]));
-  if (key == std::string_view("arc")) return curve;
-  // Back along the rest of the circle, past the point opposite the middle of the first arc.
+  if (key == std::string_view("arc")) return arcs_of(circle_through(p[0], p[1], p[2]));
+  // Three equal arcs from the first point, so that all control points are finite.
   const lvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-  const dvec3 middle = curve_point(curve.pieces[0], 0.5);
-  const lvec3 opposite = glm::normalize(2 * glm::dot(normal, p[0]) * normal - lvec3(middle));
-  const ReadCurve back = arcs_of(circle_through(p[2], opposite, p[0]));
-  curve.pieces.push_back(back.pieces[0]);
-  curve.polygon.insert(curve.polygon.end(), back.polygon.begin() + 1, back.polygon.end());
+  const lvec3 centre = glm::dot(normal, p[0]) * normal, ahead = p[0] - centre;
+  const lvec3 aside = glm::cross(normal, ahead);
+  const auto at = [&](int sixths) {
+    const long double turn = sixths * std::numbers::pi_v<long double> / 3;
+    return sixths % 6 == 0 ? p[0] : glm::normalize(centre + std::cos(turn) * ahead + std::sin(turn) * aside);
+  };
+  ReadCurve curve;
+  for (int k = 0; k < 6; k += 2) {
+    const ReadCurve arc = arcs_of(circle_through(at(k), at(k + 1), at(k + 2)));
+    curve.pieces.push_back(arc.pieces[0]);
+    curve.polygon.insert(curve.polygon.end(), arc.polygon.begin() + (k > 0 ? 1 : 0), arc.polygon.end());
+  }
   return curve;
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("an arc ends where it should", "[surfaces]") {
   const auto patches = [](const std::string& rest) {
     return build_family(R"({"type": "curve", )" + rest + "}");
   };
-  CHECK(patches(R"("circle": [[1,0,0], [0,1,0], [-1,0,0]])").patches.size() == 12);
+  CHECK(patches(R"("circle": [[1,0,0], [0,1,0], [-1,0,0]])").patches.size() == 18);
   CHECK(patches(R"("arc": [[1,0,0], [1,1,0], [0,1,0]])").patches.size() == 3 + 12);
   CHECK(patches(R"("spline": [[1,0,0], [0,1,0], [-1,0,0]])").patches.size() == 6 + 12);
   CHECK(patches(R"("net": [[0,0,0,1], [1,0,0,1], [1,1,0,1]], "degree": 1)").patches.size() == 6 + 18);
@@ -119,6 +119,24 @@ TEST_CASE("curves on other quadrics", "[surfaces]") {
   const Surface spline = build_family(
       R"({"type": "curve", "preimage": [[1,0,0,1], [1,1,0,1], [1,1,1,1]], "degree": 1, "quadric": "one_sheet"})");
   CHECK(spline.guides.at("net").size() == 4);
+}
+
+TEST_CASE("a control polygon has finite legs", "[surfaces]") {
+  // About a whole circle an equilateral triangle, twice as far away; half a circle has a point at infinity.
+  for (const char* points :
+       {"[1,0,0], [0,1,0], [-1,0,0]", "[1,0,0], [0,0.001,1], [0,0,1]", "[3,4,5], [5,4,3], [-4,5,3]"}) {
+    const Surface circle = build_family(fmt::format(R"({{"type": "curve", "circle": [{}]}})", points));
+    double farthest = 0.0;
+    const std::vector<Guide>& legs = circle.guides.at("net");
+    for (const Guide& leg : legs) {
+      for (const dvec4& p : leg.curve) farthest = std::max(farthest, glm::length(dvec3(p) / p.w));
+    }
+    INFO(points);
+    CHECK(legs.size() == 6);
+    CHECK(farthest < 2.0 + 1e-12);
+  }
+  const Surface half = build_family(R"({"type": "curve", "arc": [[1,0,0], [0.6,0.8,0], [-1,0,0]]})");
+  CHECK(half.guides.at("net").empty());
 }
 
 TEST_CASE("a curve that comes back to where it was is drawn on the way", "[surfaces]") {
