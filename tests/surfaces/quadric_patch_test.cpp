@@ -4,7 +4,9 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 
+#include "renderer/bezier/bounds.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/tracer.h"
 #include "renderer/projective/quadric.h"
@@ -93,6 +95,10 @@ Meeting meet(const lmat4& matrix, const Ray& ray) {
   return found;
 }
 
+constexpr double degrees = 180 / std::numbers::pi;
+
+double within(double x, double low, double high) { return std::min(x - low, high - x); }
+
 double distance_from(const lmat4& matrix, const dvec3& p) {
   const lvec4 x(lvec3(p), 1);
   const lvec4 gradient = matrix * x;
@@ -138,6 +144,8 @@ TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
       for (int k = 0; k < 1000; ++k) {
         const Net& net = surface.patches[static_cast<std::size_t>(k) % surface.patches.size()];
         dvec2 at = make.in_triangle();
+        // The other half of a square, too.
+        if (k % 2 == 1 && std::holds_alternative<TensorNet>(net)) at = 1.0 - at;
         at = 0.01 + 0.97 * at;
         const dvec3 target = net_point(net, at.x, at.y);
         Ray ray;
@@ -167,6 +175,79 @@ TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
   CHECK(worst.failures() == 0);
   CHECK(lost == 0);
   CHECK(invented == 0);
+}
+
+// Lines that are aimed at nothing: a patch is met at the roots of the equation that lie on it, and not at
+// others. `inside` says how far within the patch a point of the quadric is, in its own coordinates; negative
+// outside.
+TEST_CASE("a line meets a patch at the roots within its bounds", "[surfaces]") {
+  struct Bounded {
+    const char* parameters;
+    Quadric quadric;
+    double (*inside)(const dvec3& p);
+  };
+  const Bounded bounded[] = {
+      {cases[0].parameters, cases[0].quadric, [](const dvec3&) { return 1.0; }},
+      // z / c = 1 / -s_z.
+      {cases[2].parameters, cases[2].quadric, [](const dvec3& p) { return within(p.z / 0.5, 0.0, 1 / 0.4); }},
+      // z / c = (1 + s_z) / (1 - s_z).
+      {cases[4].parameters, cases[4].quadric,
+       [](const dvec3& p) { return within(p.z / 3, -1.0, 1.2 / 0.8); }},
+      {cases[6].parameters, cases[6].quadric,
+       [](const dvec3& p) {
+         const double sum = std::atan2(p.y / 2, p.x) * degrees, difference = std::atan(p.z / 0.5) * degrees;
+         double best = -INFINITY;
+         for (const double turn : {-360.0, 0.0, 360.0})
+           best = std::max(best, std::min(within((sum + turn + difference) / 2, -30, 40),
+                                          within((sum + turn - difference) / 2, -20, 35)));
+         return best;
+       }},
+      {cases[8].parameters, cases[8].quadric,
+       [](const dvec3& p) { return std::min(within(p.x + p.y / 2, -1, 2), within(p.x - p.y / 2, -2, 1)); }}};
+  NetMaker make(64);
+  int wrong = 0, doubtful = 0, met = 0, passed_by = 0;
+  std::string which;
+  for (const Bounded& b : bounded) {
+    const Surface surface = build_family(object(b.parameters));
+    Box box;
+    for (const Net& net : surface.patches) box.add(*bounds_of(net));
+    const auto somewhere = [&](double wider) {
+      const dvec3 middle = 0.5 * (box.low + box.high), half = 0.5 * wider * (box.high - box.low);
+      return middle + half * dvec3(make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1));
+    };
+    const lmat4 matrix = matrix_of(b.quadric);
+    for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
+      const Tracer tracer({{surface, solver}});
+      for (int k = 0; k < 2000; ++k) {
+        Ray ray;
+        ray.origin = somewhere(4);
+        ray.direction = somewhere(1.2) - ray.origin;
+        const Meeting roots = meet(matrix, ray);
+        int expected = 0;
+        bool doubt = roots.count == 2 && std::abs(roots.t[0] - roots.t[1]) < 1e-6;
+        for (int i = 0; i < roots.count; ++i) {
+          if (roots.t[i] < 0.0) continue;
+          const double inside = b.inside(ray.origin + roots.t[i] * ray.direction);
+          doubt = doubt || std::abs(inside) < 1e-9 || roots.t[i] < 1e-9;
+          expected += inside > 0.0;
+          passed_by += inside < 0.0;
+        }
+        if (doubt) {
+          ++doubtful;
+          continue;
+        }
+        met += expected;
+        if (static_cast<int>(tracer.all(ray).size()) == expected) continue;
+        ++wrong;
+        which = fmt::format("{} ray {}", b.parameters, k);
+      }
+    }
+  }
+  INFO(which << "; " << met << " met, " << passed_by << " roots outside, " << doubtful << " doubtful");
+  CHECK(wrong == 0);
+  CHECK(met > 10000);
+  CHECK(passed_by > 5000);
+  CHECK(doubtful < 10);
 }
 
 TEST_CASE("on a closed ellipsoid every line meets as many patches as roots", "[surfaces]") {
