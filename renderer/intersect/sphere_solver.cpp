@@ -161,8 +161,8 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
     if (invert(inverse, patch, n, 8, p) < 1e-14) {
       double beyond;
       p = clamp_to(patch, p + inverse.middle, beyond);
-      if (beyond < 1e-3 && shows(sphere, net, p, n))
-        return PlaceOnSphere{patch.patch, p.x, p.y, patch.outward};
+      // However far: beside a collapsed side rounding turns the parameter along it by any amount.
+      if (shows(sphere, net, p, n)) return PlaceOnSphere{patch.patch, p.x, p.y, patch.outward};
       if (beyond > 1e-3) continue;
     }
     if (const auto found = search(sphere, net, n); found && shows(sphere, net, *found, n))
