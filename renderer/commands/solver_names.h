@@ -6,17 +6,10 @@
 #include <set>
 #include <string>
 
+#include "renderer/intersect/solver_name.h"
 #include "renderer/scene/scene.h"
 
 namespace rondure {
-
-inline std::string solver_name(const TracedSurface& traced) {
-  if (traced.surface.ellipsoid) return "closed form";
-  return traced.solver == Solver::clipping  ? "clipping"
-         : traced.solver == Solver::radial  ? "radial"
-         : traced.solver == Solver::quadric ? "quadric"
-                                            : "newton";
-}
 
 // Each that some object uses, in the order of the alphabet: "closed form, newton". The scene must still hold
 // its nets.

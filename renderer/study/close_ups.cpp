@@ -8,6 +8,7 @@
 
 #include "renderer/normals/estimator.h"
 #include "renderer/sampling/warps.h"
+#include "renderer/shading/color_map.h"
 #include "renderer/study/corner_normals.h"
 #include "renderer/study/picture.h"
 #include "renderer/study/walk.h"
@@ -45,10 +46,21 @@ std::string scene_of(const Subject& subject, const dvec3& point, const dvec3& no
                      pixel * side, side, side, vector_text(-light), irradiance, object);
 }
 
-std::string error_integrator(const std::string& reference) {
-  return fmt::format(
-      R"({{"type": "study", "layer": "normal_error", "channel": "{}", "scale": "log", "range": [1e-12, 10]}})",
-      reference);
+// What makes a picture of the normals' errors of the scene.
+std::vector<std::string> error_settings(const std::string& reference) {
+  return {
+      fmt::format(
+          R"(/integrator={{"type":"study","layer":"normal_error","channel":"{}","scale":"log","range":[1e-12,10]}})",
+          reference),
+      "/sampling/spp=1"};
+}
+
+// Of the colours of those pictures, below a white line.
+std::string error_legend(const StudyFolder& folder) {
+  Legend legend{"angle to the true normal (degrees)", 1e-12, 10.0, true, {}};
+  for (int k = 0; k < 256; ++k) legend.colors.push_back(mapped_color("viridis", k / 255.0));
+  constexpr int width = 384;
+  return png_bytes(folder, std::vector<unsigned char>(3 * width, 255), width, 1, 1, &legend);
 }
 
 double largest_difference(const Film& a, const Film& b) {
@@ -68,10 +80,6 @@ long missed_pixels(const Film& film) {
   return missed;
 }
 
-}  // namespace
-
-namespace {
-
 // Pictures of one scene by every estimator, taken when first asked for.
 class Taker {
  public:
@@ -86,7 +94,7 @@ class Taker {
   Film error(const std::string& normals, const std::string& reference) const {
     SceneOverrides overrides;
     overrides.normals = normals;
-    overrides.set = {"/integrator=" + error_integrator(reference)};
+    overrides.set = error_settings(reference);
     return take_picture(scene_, file_, registry_, tracer_, overrides);
   }
   const Film& truth(const std::string& reference) {
@@ -113,17 +121,19 @@ std::string counts_of(const Film& shaded, const Film& truth, bool whole) {
 CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
                         const std::string& group, const StudyFolder& folder, const StudyOptions& options) {
   const dvec3 point = vector_at(sites, row, "x", "y", "z"), normal = vector_at(sites, row, "ax", "ay", "az");
-  const int side = options.quick ? 24 : 48, zoom = 96 / side;
+  const int side = options.quick ? 16 : 48, zoom = 96 / side;
   const std::vector<double> pixels =
       options.quick ? std::vector{1e-4, 1e-8} : std::vector{1e-2, 1e-4, 1e-6, 1e-8};
   const std::string stem = fmt::format("{}-{}", subject.name, sites.at(row, "site"));
   const Tracer tracer = tracer_for(scene_of(subject, point, normal, pixels.front(), side), stem, registry);
   const NormalField field(tracer.surfaces().front().surface);
+  const bool whole = tracer.surfaces().front().surface.closed;
   SingularSite site;
   site.patch = static_cast<int>(sites.number(row, "patch"));
   site.point = point;  // no subject is moved
-  CloseUps result{
-      subject.name, group, estimator_names()[static_cast<std::size_t>(reference_at(field, site))], {}};
+  CloseUps result;
+  result.family = subject.name, result.group = group;
+  result.reference = estimator_names()[static_cast<std::size_t>(reference_at(field, site))];
   for (const double pixel : pixels) {
     const std::string scene = scene_of(subject, point, normal, pixel, side);
     const std::string file = fmt::format("{}-{:.0e}.json", stem, pixel);
@@ -143,14 +153,18 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
       picture.error = folder.kept(part + "-error.png", key, [&] {
         return png_bytes(folder, taker.error(name, result.reference), zoom);
       });
-      std::istringstream(
-          folder.kept(part + ".txt", key,
-                      [&] { return counts_of(shaded(), taker.truth(result.reference), subject.sphere); })) >>
+      std::istringstream(folder.kept(
+          part + ".txt", key, [&] { return counts_of(shaded(), taker.truth(result.reference), whole); })) >>
           picture.off >> picture.missed >> picture.rejected;
-      picture.command = fmt::format("rondure render {} --normals {} --png close-up.png", file, name);
       result.pictures.push_back(std::move(picture));
     }
   }
+  result.shaded_command = fmt::format("rondure render {}-{:.0e}.json --normals {} --png close-up.png", stem,
+                                      pixels.front(), estimator_names().front());
+  result.legend = error_legend(folder);
+  const std::vector<std::string> settings = error_settings(result.reference);
+  result.error_command =
+      fmt::format("{} --set '{}' --set {}", result.shaded_command, settings[0], settings[1]);
   std::stable_sort(result.pictures.begin(), result.pictures.end(), [](const CloseUp& a, const CloseUp& b) {
     return *estimator_named(a.estimator) < *estimator_named(b.estimator);
   });

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <stdexcept>
 
 #include "renderer/film/image.h"
 #include "renderer/render/interrupt.h"
@@ -12,13 +11,6 @@
 
 namespace rondure {
 namespace {
-
-void stop_if_interrupted(Progress& progress, const StudyFolder& folder) {
-  if (!interrupted()) return;
-  progress.clear();
-  throw std::runtime_error(
-      fmt::format("interrupted; what is done is kept in {}, and the same command goes on", folder.path("")));
-}
 
 // From files of an earlier run if they are of the same subject.
 CornerTables kept_corners(const Subject& subject, const Registry& registry, const StudyFolder& folder,

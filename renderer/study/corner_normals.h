@@ -5,25 +5,18 @@
 #include <vector>
 
 #include "renderer/api/registry.h"
-#include "renderer/study/folder.h"
+#include "renderer/study/study_options.h"
 #include "renderer/study/subjects.h"
 #include "renderer/study/table.h"
 
 namespace rondure {
 
-struct StudyOptions {
-  std::vector<std::string> families;  // all when empty
-  std::string output;                 // folder
-  bool quick = false;
-  bool quiet = false;
-  std::string command;  // that reproduces the study, for the page
-};
-
-// Tables of one subject. `families`: family, patches, sites, undecided, pieces: on how many patches the
-// search for singular points was given up, and what it took. `sites`: family, site, group, patch, u, v, x, y,
-// z, place, kind, order, side_order, limit, spread, nx, ny, nz (the limit), ax, ay, az (along one way in),
-// proof, within. `walks`: family, site, group, way, distance, u, v, sine, condition, smallest, reference,
-// error_E and radiance_E for every estimator E, rays, hits, off, steps, undecided, cells. Angles in radians.
+// Tables of one subject, angles in radians. `families`: family, patches, solver (the default), sites,
+// undecided, pieces: on how many patches the search for singular points was given up, and what it took.
+// `sites`: family, site, group, patch, u, v, x, y, z, place, kind, order, side_order, limit, spread, nx, ny,
+// nz (the limit), ax, ay, az (along one way in), proof, within. `walks`: family, site, group, way, distance,
+// u, v, sine, condition, smallest, reference, error_E and radiance_E for every estimator E, rays, hits_S,
+// off_S, steps_S, undecided_S and cells_S for every solver S of renderer/study/ray_trials.h.
 struct CornerTables {
   Table families, sites, walks;
 };
@@ -35,7 +28,7 @@ Table corner_slopes(const Table& walks);
 
 // A close-up of one site by one estimator.
 struct CloseUp {
-  std::string estimator, command;
+  std::string estimator;
   double pixel = 0.0;         // size, in radii
   std::string shaded, error;  // PNG
   double off = 0.0;           // largest difference of the shading from that by the reference
@@ -44,8 +37,10 @@ struct CloseUp {
 };
 struct CloseUps {
   std::string family, group;
-  std::string reference;          // what the shading is compared with: "analytic" or "limit"
-  std::vector<CloseUp> pictures;  // estimator by estimator, magnification by magnification
+  std::string reference;                      // what the shading is compared with: "analytic" or "limit"
+  std::vector<CloseUp> pictures;              // estimator by estimator, magnification by magnification
+  std::string shaded_command, error_command;  // that make the first of them
+  std::string legend;                         // PNG, of the errors' colours
 };
 CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
                         const std::string& group, const StudyFolder& folder, const StudyOptions& options);

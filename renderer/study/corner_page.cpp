@@ -10,6 +10,7 @@
 #include "renderer/study/corner_normals.h"
 #include "renderer/study/gnuplot.h"
 #include "renderer/study/page.h"
+#include "renderer/study/ray_trials.h"
 
 namespace rondure {
 namespace {
@@ -76,27 +77,31 @@ std::string slopes_table(const Table& slopes, const Group& group) {
   return html_table(rows);
 }
 
-std::string solver_line(const Table& walks, const Group& group) {
-  double rays = 0, hits = 0, off = 0, steps = 0, undecided = 0, cells = 0, most_cells = 0;
-  for (const std::size_t row : group.rows) {
-    rays += walks.number(row, "rays");
-    hits += walks.number(row, "hits");
-    off = std::max(off, walks.number(row, "off"));
-    steps += walks.number(row, "steps");
-    undecided += walks.number(row, "undecided");
-    cells += walks.number(row, "cells");
-    most_cells = std::max(most_cells, walks.number(row, "cells"));
+// What rays at the places of the walks came to, solver by solver.
+std::string solvers_table(const Table& walks, const Group& group) {
+  std::vector<std::vector<std::string>> rows = {{"solver", "rays", "hits", "furthest off (extents)",
+                                                 "Newton steps a ray", "leaves left to clipping, a ray",
+                                                 "cells of clipping a ray", "most at one place"}};
+  for (const std::string solver : RayTrials::names) {
+    double rays = 0, hits = 0, off = 0, steps = 0, undecided = 0, cells = 0, most_cells = 0;
+    for (const std::size_t row : group.rows) {
+      rays += walks.number(row, "rays");
+      hits += walks.number(row, "hits_" + solver);
+      off = std::max(off, walks.number(row, "off_" + solver));
+      steps += walks.number(row, "steps_" + solver);
+      undecided += walks.number(row, "undecided_" + solver);
+      cells += walks.number(row, "cells_" + solver);
+      most_cells = std::max(most_cells, walks.number(row, "cells_" + solver));
+    }
+    rows.push_back({solver, fmt::format("{}", rays), fmt::format("{}", hits), number_text(off),
+                    number_text(steps / rays), number_text(undecided / rays), number_text(cells / rays),
+                    fmt::format("{}", most_cells)});
   }
-  return fmt::format(
-      "<p>Rays aimed at the places of the walks, along the normal and at 60&deg; to it: {} of {} hit, at "
-      "most {} "
-      "extents of the surface off the place. A ray takes {} Newton steps, leaves {} leaves to clipping and "
-      "{} cells "
-      "there on average; two rays at one place take {} cells at most. (On an open surface a ray may rightly "
-      "pass "
-      "by a place that is nearer to the boundary than the place is rounded.)</p>\n",
-      hits, rays, number_text(off), number_text(steps / rays), number_text(undecided / rays),
-      number_text(cells / rays), most_cells);
+  return html_table(rows);
+}
+
+std::string made_by(const std::string& plot) {
+  return fmt::format("Made by <code>gnuplot {}.gp</code>.", plot);
 }
 
 std::string plots(const Table& walks, const Group& group, const StudyFolder& folder) {
@@ -107,22 +112,26 @@ std::string plots(const Table& walks, const Group& group, const StudyFolder& fol
     errors.curves.push_back(envelope(walks, group, "error_" + name, name));
     radiance.curves.push_back(envelope(walks, group, "radiance_" + name, name));
   }
-  Plot conditioning{group.family + ": " + group.name, "distance in the parameters", "of the Jacobian", {}};
+  Plot conditioning{group.family + ": " + group.name, "distance in the parameters", "conditioning, work", {}};
   conditioning.curves = {envelope(walks, group, "sine", "least |Su x Sv| / (|Su| |Sv|)", true),
                          envelope(walks, group, "smallest", "least singular value", true),
                          envelope(walks, group, "condition", "largest condition"),
-                         envelope(walks, group, "cells", "most cells of clipping"),
-                         envelope(walks, group, "steps", "most Newton steps")};
+                         envelope(walks, group, "cells_newton", "most cells of clipping"),
+                         envelope(walks, group, "steps_newton", "most Newton steps")};
   const std::string stem = group.stem(), to = walks.at(group.rows.front(), "reference");
   std::string out;
   out += html_figure(
       plot_svg(folder, stem + "-error", errors),
-      fmt::format("Angle to the {} normal, radians: the largest over all walks. Zeros are not drawn.", to));
+      fmt::format("Angle to the {} normal, radians: the largest over all walks. Zeros are not drawn. {}", to,
+                  made_by(stem + "-error")));
   out += html_figure(
       plot_svg(folder, stem + "-radiance", radiance),
-      "Difference of max(0, n&middot;l) for light at 60&deg; to the true normal, of which it is 0.5.");
+      "Difference of max(0, n&middot;l) for light at 60&deg; to the true normal, of which it is 0.5. " +
+          made_by(stem + "-radiance"));
   out += html_figure(plot_svg(folder, stem + "-conditioning", conditioning),
-                     "Conditioning of the parametrisation, and what two rays at each place cost.");
+                     "Conditioning of the Jacobian (Su Sv), and what two rays at each place cost the solver "
+                     "<code>newton</code>. " +
+                         made_by(stem + "-conditioning"));
   return out;
 }
 
@@ -141,15 +150,18 @@ std::string close_up_section(const CloseUps& ups) {
                     html_picture(p.error, p.estimator + ", error"), number_text(p.off), missed, p.rejected));
   }
   return html_figure(
-      html_table(rows),
-      fmt::format(
-          "Close-ups of the first of these points, straight down, in light at 89&deg; to the normal: left "
-          "the "
-          "shading, of which the true value is 0.5 (linear); right the angle to the {} normal, from "
-          "10<sup>-12</sup> (dark) to 10 degrees (bright), on a logarithmic scale. \"Off by\": the largest "
-          "difference of a pixel from the shading by the {} normal. 4 samples a pixel, seed 1. Each by "
-          "<code>{}</code>, the other files and normals alike.",
-          ups.reference, ups.reference, html_escaped(ups.pictures.front().command)));
+      html_table(rows) + html_picture(ups.legend, "legend"),
+      fmt::format("Close-ups of the first of these points, straight down, hits by the default solver, in "
+                  "light at 89&deg; to "
+                  "the normal: left the shading, of which the true value is 0.5 (linear), 4 samples a pixel; "
+                  "right the angle "
+                  "to the {} normal, one sample a pixel, dark to bright from 10<sup>-12</sup> to 10 degrees "
+                  "on a logarithmic "
+                  "scale. Seed 1. \"Off by\": the largest difference of a pixel from the shading by the {} "
+                  "normal. The first "
+                  "by <code>{}</code> and <code>{}</code>, those of other scenes and normals alike.",
+                  ups.reference, ups.reference, html_escaped(ups.shaded_command),
+                  html_escaped(ups.error_command)));
 }
 
 }  // namespace
@@ -164,18 +176,25 @@ std::string corner_page(const CornerTables& tables, const Table& slopes,
       "lines of the parameters and compares what the estimators give with the gradient of the quadric that "
       "the patch "
       "lies on, or where there is none with the limit normal. All numbers are in <code>families.csv</code>, "
-      "<code>sites.csv</code>, "
-      "<code>walks.csv</code> and <code>slopes.csv</code>; angles in radians, distances in parameters (the "
-      "domain is "
-      "[0, 1]<sup>2</sup>, or a triangle of side 1). Every surface is turned by 40&deg; about (1, 2, 3): "
-      "along the axes some cross products come out right by chance. Slopes are fitted by least squares over "
-      "places with an "
-      "error "
-      "between 10 &times; 2<sup>-52</sup> and 0.1.</p>\n";
+      "<code>sites.csv</code>, <code>walks.csv</code> and <code>slopes.csv</code>; angles in radians, "
+      "distances in "
+      "parameters (the domain is [0, 1]<sup>2</sup>, or a triangle of side 1). Every surface is turned by "
+      "40&deg; about "
+      "(1, 2, 3): along the axes some cross products come out right by chance. Slopes are fitted by least "
+      "squares over "
+      "places with an error between 10 &times; 2<sup>-52</sup> and 0.1. Two rays are aimed at every place, "
+      "along the "
+      "normal and at 60&deg; to it, and met by a scene's default solver for the surface and by the two that "
+      "meet any "
+      "patch; on an open surface a ray may rightly pass by a place that is nearer to the boundary than the "
+      "place is "
+      "rounded. Nothing is random but the samples of the close-ups, whose seed is 1. Commands are for the "
+      "folder of "
+      "this page.</p>\n";
   body += sites_section(tables.families, tables.sites);
   for (const Group& group : groups_of(walks)) {
     body += fmt::format("<h2>{}: {}</h2>\n", html_escaped(group.family), html_escaped(group.name));
-    body += slopes_table(slopes, group) + solver_line(walks, group) + plots(walks, group, folder);
+    body += slopes_table(slopes, group) + solvers_table(walks, group) + plots(walks, group, folder);
     for (const CloseUps& ups : close_ups)
       if (ups.family == group.family && ups.group == group.name) body += close_up_section(ups);
   }

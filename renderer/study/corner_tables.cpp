@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/bezier/rational.h"
+#include "renderer/intersect/solver_name.h"
 #include "renderer/study/corner_normals.h"
 #include "renderer/study/walk.h"
 
@@ -44,7 +45,11 @@ std::string walks_header() {
   std::string text = "family,site,group,way,distance,u,v,sine,condition,smallest,reference";
   for (const char* what : {"error", "radiance"})
     for (const std::string& name : estimator_names()) text += fmt::format(",{}_{}", what, name);
-  return text + ",rays,hits,off,steps,undecided,cells\n";
+  text += ",rays";
+  for (const char* solver : RayTrials::names)
+    for (const char* what : {"hits", "off", "steps", "undecided", "cells"})
+      text += fmt::format(",{}_{}", what, solver);
+  return text + "\n";
 }
 
 std::string walk_line(const std::string& family, const std::string& group, const WalkStep& s) {
@@ -54,24 +59,27 @@ std::string walk_line(const std::string& family, const std::string& group, const
   text += "," + s.reference;
   for (const double x : s.error) text += "," + csv_number(x);
   for (const double x : s.radiance) text += "," + csv_number(x);
-  return text + fmt::format(",{},{},{},{},{},{}\n", s.rays, s.hits, csv_number(s.miss_distance), s.steps,
-                            s.undecided, s.cells);
+  text += fmt::format(",{}", RayTrials::rays);
+  for (const RayTrial& t : s.trials)
+    text += fmt::format(",{},{},{},{},{}", t.hits, csv_number(t.off), t.steps, t.undecided, t.cells);
+  return text + "\n";
 }
 
 }  // namespace
 
 CornerTables measure_corners(const Subject& subject, const Registry& registry, bool quick) {
-  const Surface surface = surface_of(subject, registry);
+  const TracedSurface traced = traced_subject(subject, registry);
+  const Surface& surface = traced.surface;
   const SiteSearch search = singular_sites(surface);
   CornerTables tables;
   tables.sites = Table(sites_text(subject.name, surface, search.sites));
-  tables.families =
-      Table(fmt::format("family,patches,sites,undecided,pieces\n{},{},{},{},{}\n", subject.name,
-                        surface.patches.size(), search.sites.size(), search.undecided, search.pieces));
+  tables.families = Table(fmt::format("family,patches,solver,sites,undecided,pieces\n{},{},{},{},{},{}\n",
+                                      subject.name, surface.patches.size(), solver_name(traced),
+                                      search.sites.size(), search.undecided, search.pieces));
   std::string text = walks_header();
   if (!search.sites.empty()) {
     const NormalField field(surface);
-    const Tracer tracer({TracedSurface{surface}});
+    const RayTrials trials(traced);
     WalkOptions options;
     if (quick) options.ways = 1, options.per_decade = 1;
     std::map<std::string, int> walked;
@@ -79,7 +87,7 @@ CornerTables measure_corners(const Subject& subject, const Registry& registry, b
       const std::string group = group_of(search.sites[k]);
       // The sites of a group are alike in most families; a quick study looks at two of each.
       if (quick && ++walked[group] > 2) continue;
-      for (const WalkStep& step : walk(surface, field, tracer, search.sites[k], k, options))
+      for (const WalkStep& step : walk(surface, field, trials, search.sites[k], k, options))
         text += walk_line(subject.name, group, step);
     }
   }

@@ -22,8 +22,8 @@ struct Plot {
 // Throws std::runtime_error, naming the package, when there is no gnuplot to be found.
 void require_gnuplot();
 
-// Writes NAME.svg, and what made it: NAME.gp and NAME.dat. Returns the SVG. Throws std::runtime_error with
-// gnuplot's own words when it fails.
+// Writes NAME.svg, and what made it: NAME.gp and NAME.dat, for gnuplot in that folder. Returns the SVG.
+// Throws std::runtime_error with gnuplot's own words when it fails.
 std::string plot_svg(const StudyFolder& folder, const std::string& name, const Plot& plot);
 
 }  // namespace rondure

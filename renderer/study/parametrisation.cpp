@@ -13,6 +13,8 @@
 #include "renderer/shading/color_map.h"
 #include "renderer/study/page.h"
 #include "renderer/study/picture.h"
+#include "renderer/study/subjects.h"
+#include "renderer/study/table.h"
 
 namespace rondure {
 namespace {
@@ -42,7 +44,7 @@ std::string scene_of(const std::string& object, int side) {
 }
 
 struct Compared {
-  Table row;
+  std::string row;           // a table of one row
   std::string picture, map;  // PNG
 };
 
@@ -75,14 +77,66 @@ Compared compare(const Subject& subject, std::size_t patches, const Film& truth,
     }
   }
   Compared result;
-  result.row = Table(fmt::format("family,patches,rmse,color,normal,point,missed\n{},{},{},{},{},{},{}\n",
-                                 subject.name, patches, csv_number(std::sqrt(sum / size)), csv_number(color),
-                                 csv_number(normal), csv_number(point), missed));
+  result.row = fmt::format("family,patches,rmse,color,normal,point,missed\n{},{},{},{},{},{},{}\n",
+                           subject.name, patches, csv_number(std::sqrt(sum / size)), csv_number(color),
+                           csv_number(normal), csv_number(point), missed);
   Legend legend{"largest difference of a channel", least, most, true, {}};
   for (int k = 0; k < 256; ++k) legend.colors.push_back(mapped_color("viridis", k / 255.0));
   result.picture = png_bytes(folder, film);
   result.map = png_bytes(folder, map, film.width(), film.height(), 1, &legend);
   return result;
+}
+
+// The same scene with the sphere in patches or analytic, each made when first asked for.
+class Comparison {
+ public:
+  Comparison(const StudyFolder& folder, const Registry& registry, int side)
+      : folder_(folder), registry_(registry), side_(side) {}
+
+  // From files of an earlier run where they are of the same scenes.
+  Compared of(const Subject& subject) {
+    const std::string truth = scene_of(R"({ "type": "sphere" })", side_),
+                      scene = scene_of(subject.object, side_);
+    folder_.write("sphere.json", truth);
+    folder_.write(subject.name + ".json", scene);
+    std::optional<Compared> fresh;
+    const auto made = [&]() -> const Compared& {
+      if (fresh) return *fresh;
+      if (!truth_) truth_ = film_of(truth, "sphere.json");
+      const Film film = film_of(scene, subject.name + ".json");
+      fresh = compare(subject, surface_of(subject, registry_).patches.size(), *truth_, film, folder_);
+      return *fresh;
+    };
+    const std::string part = "parts/" + subject.name, key = truth + scene;
+    Compared kept;
+    kept.row = folder_.kept(part + ".csv", key, [&] { return made().row; });
+    kept.picture = folder_.kept(part + ".png", key, [&] { return made().picture; });
+    kept.map = folder_.kept(part + "-map.png", key, [&] { return made().map; });
+    return kept;
+  }
+
+ private:
+  const StudyFolder& folder_;
+  const Registry& registry_;
+  int side_;
+  std::optional<Film> truth_;
+
+  Film film_of(const std::string& scene, const std::string& name) const {
+    return take_picture(scene, name, registry_, tracer_for(scene, name, registry_));
+  }
+};
+
+std::string figure_of(const Subject& subject, const Compared& compared) {
+  const std::string name = html_escaped(subject.name);
+  return html_figure(
+      "<div style=\"display:flex;gap:6px\">" + html_picture(compared.picture, subject.name) +
+          html_picture(compared.map, subject.name + ", difference") + "</div>",
+      fmt::format(
+          "{}: the picture, by <code>rondure render {}.json --png picture.png</code>, and its largest "
+          "difference from the analytic sphere's (<code>sphere.json</code>) in any channel: linear values, "
+          "of "
+          "which the light in the scene is near 1, on a logarithmic scale. 16 samples a pixel, seed 1.",
+          name, name));
 }
 
 }  // namespace
@@ -93,45 +147,36 @@ void study_parametrisation(const StudyOptions& options, const Registry& registry
   if (chosen.empty()) throw std::runtime_error("none of these families is the whole unit sphere");
   require_image_module();
   const StudyFolder folder(options.output);
-  const int side = options.quick ? 160 : 320;
+  const StudyFolder parts(folder.path("parts"));
   const InterruptGuard guard;
-  Progress progress("parametrisations", chosen.size() + 1, progress_style(options.quiet));
-  const auto film_of = [&](const std::string& name, const std::string& scene) {
-    folder.write(name + ".json", scene);
-    return take_picture(scene, name + ".json", registry, tracer_for(scene, name + ".json", registry));
-  };
-  const Film truth = film_of("sphere", scene_of(R"({ "type": "sphere" })", side));
-  progress.advance(1);
+  Progress progress("parametrisations", chosen.size(), progress_style(options.quiet));
+  Comparison comparison(folder, registry, options.quick ? 160 : 320);
   Table table;
   std::vector<std::vector<std::string>> rows = {{"family", "patches", "relative RMSE", "largest difference",
                                                  "normals (rad)", "points (radii)",
                                                  "pixels hit by one alone"}};
   std::string figures;
   for (const Subject& subject : chosen) {
-    const Film film = film_of(subject.name, scene_of(subject.object, side));
-    const Compared c = compare(subject, surface_of(subject, registry).patches.size(), truth, film, folder);
-    table.append(c.row);
-    rows.push_back({subject.name, c.row.at(0, "patches"), number_text(c.row.number(0, "rmse")),
-                    number_text(c.row.number(0, "color")), number_text(c.row.number(0, "normal")),
-                    number_text(c.row.number(0, "point")), c.row.at(0, "missed")});
-    figures += html_figure(
-        "<div style=\"display:flex;gap:6px\">" + html_picture(c.picture, subject.name) +
-            html_picture(c.map, "difference") + "</div>",
-        fmt::format(
-            "{}: the picture, and its largest difference from the analytic sphere's in any channel (linear, "
-            "logarithmic scale). 16 samples a pixel, seed 1: <code>rondure render {}.json --png "
-            "picture.png</code>",
-            html_escaped(subject.name), html_escaped(subject.name)));
+    const Compared c = comparison.of(subject);
+    const Table row(c.row);
+    table.append(row);
+    rows.push_back({subject.name, row.at(0, "patches"), number_text(row.number(0, "rmse")),
+                    number_text(row.number(0, "color")), number_text(row.number(0, "normal")),
+                    number_text(row.number(0, "point")), row.at(0, "missed")});
+    figures += figure_of(subject, c);
     progress.advance(1);
-    if (interrupted()) throw std::runtime_error("interrupted");
+    stop_if_interrupted(progress, folder);
   }
   folder.write("parametrisation.csv", table.text());
   folder.write(
       "index.html",
-      html_page("One sphere, many parametrisations", options.command,
-                "<p>The same scene with the same samples, the sphere once analytic and once in patches. All "
-                "numbers are in <code>parametrisation.csv</code>.</p>\n" +
-                    html_table(rows) + figures));
+      html_page(
+          "One sphere, many parametrisations", options.command,
+          "<p>The same scene with the same samples, the sphere once analytic and once in patches, met by "
+          "each patch's default solver. Differences of pictures, and the largest angles of normals and "
+          "distances of points at pixels' first hits. All numbers are in "
+          "<code>parametrisation.csv</code>.</p>\n" +
+              html_table(rows) + figures));
 }
 
 }  // namespace rondure

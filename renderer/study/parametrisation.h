@@ -1,7 +1,8 @@
 // The study of one sphere from every parametrisation: what `rondure study parametrisation` does.
 #pragma once
 
-#include "renderer/study/corner_normals.h"
+#include "renderer/api/registry.h"
+#include "renderer/study/study_options.h"
 
 namespace rondure {
 

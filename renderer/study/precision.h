@@ -1,13 +1,14 @@
 // The study of single against double precision: what `rondure study precision` does.
 #pragma once
 
-#include "renderer/study/corner_normals.h"
+#include "renderer/api/registry.h"
+#include "renderer/study/study_options.h"
 
 namespace rondure {
 
 // Writes precision.csv and index.html. For spheres of radius r whose centre is a distance d from the world's
-// origin: what single precision all through (world-space control points, ray, Newton's method from the true
-// root, Su x Sv) makes of rays, and what the tracer does. Columns: family, radius, distance, rays,
+// origin: what single precision all through (renderer/study/float_solver.h, Su x Sv) makes of rays, and what
+// the tracer does. Columns: family, radius, distance, rays,
 // float_hits, float_sphere, float_ray, float_normal, double_hits, double_sphere, double_ray, double_normal:
 // the largest distances of a hit from the sphere and from its ray in radii, and the largest angle of the
 // normal to the one at the hit's parameters, radians.

@@ -50,11 +50,13 @@ std::string proof_text(const Line& line) {
 
 // How the search ended, family by family.
 std::string families_table(const Table& families) {
-  std::vector<std::vector<std::string>> rows = {
-      {"family", "patches", "singular points and places on collapsed sides", "that there are no others"}};
+  std::vector<std::vector<std::string>> rows = {{"family", "patches", "default solver",
+                                                 "singular points and places on collapsed sides",
+                                                 "that there are no others"}};
   for (std::size_t k = 0; k < families.size(); ++k) {
     const std::string& undecided = families.at(k, "undecided");
-    rows.push_back({families.at(k, "family"), families.at(k, "patches"), families.at(k, "sites"),
+    rows.push_back({families.at(k, "family"), families.at(k, "patches"), families.at(k, "solver"),
+                    families.at(k, "sites"),
                     undecided == "0" ? fmt::format("proved on {} pieces", families.at(k, "pieces"))
                                      : fmt::format("given up on {} patches", undecided)});
   }

@@ -146,10 +146,14 @@ Subject turned(Subject subject) {
   return subject;
 }
 
-Surface surface_of(const Subject& subject, const Registry& registry) {
+TracedSurface traced_subject(const Subject& subject, const Registry& registry) {
   const std::string text = fmt::format("{{ \"objects\": [ {} ] }}", subject.object);
   Scene scene = read_scene_text(subject.name, text, registry);
-  return std::move(scene.objects.at(0).traced.surface);
+  return std::move(scene.objects.at(0).traced);
+}
+
+Surface surface_of(const Subject& subject, const Registry& registry) {
+  return traced_subject(subject, registry).surface;
 }
 
 }  // namespace rondure

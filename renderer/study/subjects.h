@@ -26,7 +26,8 @@ std::vector<Subject> subjects_named(const std::vector<std::string>& names);
 // them, and their cross product is right in any precision.
 Subject turned(Subject subject);
 
-// The subject alone, as its object says.
+// The subject alone, as its object says, with the solver that a scene takes for it by default.
+TracedSurface traced_subject(const Subject& subject, const Registry& registry);
 Surface surface_of(const Subject& subject, const Registry& registry);
 
 }  // namespace rondure

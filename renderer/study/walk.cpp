@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "renderer/bezier/rational.h"
-#include "renderer/intersect/solve_leaf.h"
 #include "renderer/sampling/warps.h"
 
 namespace rondure {
@@ -65,28 +64,6 @@ void measure_normals(const NormalField& field, const SingularSite& site, const d
   }
 }
 
-void measure_rays(const Surface& surface, const Tracer& tracer, const dvec3& point, const dvec3& normal,
-                  WalkStep& step) {
-  const double extent = tracer.bounding_radius();
-  const dvec3 target = surface.origin + point, aside = frame_about(normal).y;
-  for (const dvec3& from : {normal, 0.5 * normal + std::sqrt(0.75) * aside}) {
-    const Ray ray{target + 3.0 * extent * from, -from};
-    const SolverCounts before = thread_counts();
-    // Any of the hits: on a surface that is not convex the place may lie behind another.
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Hit& hit : tracer.all(ray)) nearest = std::min(nearest, glm::distance(hit.point, target));
-    const SolverCounts& after = thread_counts();
-    ++step.rays;
-    if (nearest <= 1e-6 * extent) {
-      ++step.hits;
-      step.miss_distance = std::max(step.miss_distance, nearest / extent);
-    }
-    step.steps += static_cast<long>(after.newton.steps - before.newton.steps);
-    step.undecided += static_cast<long>(after.newton.undecided - before.newton.undecided);
-    step.cells += static_cast<long>(after.search.cells - before.search.cells);
-  }
-}
-
 }  // namespace
 
 NormalEstimator reference_at(const NormalField& field, const SingularSite& site) {
@@ -98,7 +75,7 @@ NormalEstimator reference_at(const NormalField& field, const SingularSite& site)
   return here > 1e-3 * usual ? NormalEstimator::analytic : NormalEstimator::limit;
 }
 
-std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const Tracer& tracer,
+std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const RayTrials& trials,
                            const SingularSite& site, std::size_t index, const WalkOptions& options) {
   const Net& net = surface.patches[static_cast<std::size_t>(site.patch)];
   const NormalEstimator exact = reference_at(field, site);
@@ -119,7 +96,7 @@ std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, con
       const NormalEstimate reference = field.at(exact, site.patch, step.at.x, step.at.y);
       if (!reference) continue;
       measure_normals(field, site, *reference, step);
-      measure_rays(surface, tracer, net_point(net, step.at.x, step.at.y), *reference, step);
+      step.trials = trials.at(net_point(net, step.at.x, step.at.y), *reference);
       steps.push_back(std::move(step));
     }
   }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/intersect/tracer.h"
 #include "renderer/normals/normal_field.h"
+#include "renderer/study/ray_trials.h"
 #include "renderer/study/singular_sites.h"
 
 namespace rondure {
@@ -24,11 +24,7 @@ struct WalkStep {
   std::array<double, estimator_count> error{};  // angle to the reference, by estimator
   std::array<double, estimator_count>
       radiance{};  // |difference| of max(0, n . l), l at 60 degrees to the reference
-  // A ray aimed at the place along the normal, and one at 60 degrees to it.
-  int rays = 0, hits = 0;
-  double miss_distance =
-      0.0;  // the largest distance of a hit from the place, in units of the surface's extent
-  long steps = 0, undecided = 0, cells = 0;  // of Newton's method; leaves left to clipping; its cells
+  std::array<RayTrial, RayTrials::solver_count> trials;
 };
 
 struct WalkOptions {
@@ -42,8 +38,8 @@ struct WalkOptions {
 // gradient vanishes and rounding of the point turns it.
 NormalEstimator reference_at(const NormalField& field, const SingularSite& site);
 
-// All walks into one site. The field and the tracer are of the same surface, which is the tracer's only one.
-std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const Tracer& tracer,
+// All walks into one site. The field and the trials are of the same surface.
+std::vector<WalkStep> walk(const Surface& surface, const NormalField& field, const RayTrials& trials,
                            const SingularSite& site, std::size_t index, const WalkOptions& options);
 
 // The slope of log(error) over log(distance), by least squares over the places whose error lies between 10

@@ -53,7 +53,7 @@ TEST_CASE("a study of corners writes tables and a page that agree", "[study]") {
   CHECK(slopes.size() == 3 * 7);
   const std::string page = read_text_file(folder + "/index.html");
   CHECK(has(page, "<code>rondure study corner-normals --families hemispheres,cube,octants --quick</code>"));
-  CHECK(has(page, "<tr><td>cube</td><td>6</td><td>0</td><td>proved on 6 pieces</td></tr>"));
+  CHECK(has(page, "<tr><td>cube</td><td>6</td><td>quadric</td><td>0</td><td>proved on 6 pieces</td></tr>"));
   // Every number of the slopes' tables, row by row, as the page writes numbers.
   for (std::size_t k = 0; k < slopes.size(); ++k) {
     const double slope = slopes.number(k, "slope");
@@ -76,9 +76,9 @@ TEST_CASE("a study of corners writes tables and a page that agree", "[study]") {
   CHECK(slopes.at(1, "estimator") == "cross");
   CHECK(slopes.number(1, "worst") == worst);
   // Nothing from elsewhere, every picture inside: 3 groups, 7 estimators, 2 magnifications, shading and
-  // error.
-  CHECK(count_of(page, "src=\"data:image/png;base64,") == 3 * 7 * 2 * 2);
-  CHECK(count_of(page, "src=\"") == 3 * 7 * 2 * 2);
+  // error; a legend each.
+  CHECK(count_of(page, "src=\"data:image/png;base64,") == 3 * (7 * 2 * 2 + 1));
+  CHECK(count_of(page, "src=\"") == 3 * (7 * 2 * 2 + 1));
   CHECK(count_of(page, "<svg") == 3 * 3);
   CHECK_FALSE(has(page, ">nan"));
 
@@ -109,7 +109,8 @@ TEST_CASE("the page opens in a browser without complaints", "[study]") {
   // What the browser makes of the page, after a script of ours has looked at every picture.
   std::string page = read_text_file(folder + "/index.html");
   page.replace(page.find("</body>"), 7,
-               "<script>let bad = 0; for (const i of document.images) bad += i.naturalWidth === 96 ? 0 : 1;"
+               "<script>let bad = 0; for (const i of document.images) bad += i.naturalWidth === (i.alt === "
+               "'legend' ? 384 : 96) ? 0 : 1;"
                "for (const s of document.querySelectorAll('svg')) bad += s.getBoundingClientRect().width > "
                "300 ? 0 : 1;"
                "document.title = document.images.length + ' pictures, ' + bad + ' bad';</script></body>");
@@ -118,7 +119,7 @@ TEST_CASE("the page opens in a browser without complaints", "[study]") {
                                          "--user-data-dir=" + folder + "/profile", "--dump-dom",
                                          "file://" + folder + "/probe.html"});
   CHECK(run.exit_code == 0);
-  CHECK(has(run.out, "<title>56 pictures, 0 bad</title>"));
+  CHECK(has(run.out, "<title>58 pictures, 0 bad</title>"));
 }
 
 TEST_CASE("studies refuse what they do not know", "[study]") {
