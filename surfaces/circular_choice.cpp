@@ -35,6 +35,21 @@ bool weights_positive(const Net& net) {
   return std::all_of(points.begin(), points.end(), [](const dvec4& p) { return p.w > 0.0; });
 }
 
+// Whether J is negative at a corner: it is there whatever the shape, as its sign is that of the angle's sine.
+bool folds_at_corner(const Preimage& preimage) {
+  const auto folds = [](const auto& j, std::initializer_list<long double> corners) {
+    long double largest = 0;
+    for (const long double c : j.coefficients) largest = std::max(largest, std::abs(c));
+    return std::min(corners) < -1e-12L * largest;
+  };
+  if (const auto* t = std::get_if<TensorPreimage>(&preimage)) {
+    const auto j = orientation(*t);
+    return folds(j, {j.at(0, 0), j.at(j.m, 0), j.at(0, j.n), j.at(j.m, j.n)});
+  }
+  const auto j = orientation(std::get<TrianglePreimage>(preimage));
+  return folds(j, {j.at(j.n, 0), j.at(0, j.n), j.at(0, 0)});
+}
+
 // The image at the first shape of positive weights in any of the families, and notes on it, or on why there
 // is none.
 std::optional<Net> sought(const std::vector<const PreimageFamily*>& families, std::vector<Note>& notes) {
@@ -147,7 +162,7 @@ Surface best_image(const Params& params, const std::vector<PreimageFamily>& fami
     params.fail("shape",
                 "these turns take the phase of a side past 180 degrees, where the patch has a base point");
   if (!given) {
-    if (regular.empty()) {
+    if (regular.empty() && !folds_at_corner(first.front())) {
       for (const PreimageFamily& family : families) regular.push_back(&family);
     }
     if (auto found = sought(regular, surface.notes)) surface.patches = {std::move(*found)};
