@@ -158,7 +158,7 @@ TEST_CASE("sides that run round one circle bound the cap on their left", "[surfa
   NetMaker make(52);
   WorstCase worst;
   int built = 0, wanted = 0;
-  for (int k = 0; k < 120; ++k) {
+  for (int k = 0; k < 80; ++k) {
     const int corners = k % 2 == 0 ? 4 : 3;
     const double z = make.uniform(-0.8, 0.8), r = std::sqrt(1 - z * z);
     const bool north = k % 4 < 2;

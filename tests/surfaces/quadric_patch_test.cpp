@@ -4,15 +4,14 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 
-#include "renderer/bezier/bounds.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/tracer.h"
 #include "renderer/projective/quadric.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
 #include "tests/surfaces/build_family.h"
+#include "tests/surfaces/quadric_roots.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -75,29 +74,6 @@ const Case cases[] = {
 std::string object(const char* parameters) {
   return fmt::format(R"({{"type": "quadric_patch", {}}})", parameters);
 }
-
-struct Meeting {
-  int count = 0;
-  double t[2] = {0, 0};
-};
-
-// Where the line meets x^T B x = 0, from the quadratic equation in extended precision.
-Meeting meet(const lmat4& matrix, const Ray& ray) {
-  const lvec4 o(lvec3(ray.origin), 1), d(lvec3(ray.direction), 0);
-  const long double a = glm::dot(d, matrix * d), b = glm::dot(o, matrix * d), c = glm::dot(o, matrix * o);
-  Meeting found;
-  const long double root2 = b * b - a * c;
-  if (root2 < 0) return found;
-  const long double q = -(b + (b < 0 ? -1 : 1) * std::sqrt(root2));
-  for (const long double t : {a != 0 ? q / a : INFINITY, c / q}) {
-    if (std::isfinite(t)) found.t[found.count++] = static_cast<double>(t);
-  }
-  return found;
-}
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-double within(double x, double low, double high) { return std::min(x - low, high - x); }
 
 double distance_from(const lmat4& matrix, const dvec3& p) {
   const lvec4 x(lvec3(p), 1);
@@ -175,79 +151,6 @@ TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
   CHECK(worst.failures() == 0);
   CHECK(lost == 0);
   CHECK(invented == 0);
-}
-
-// Lines that are aimed at nothing: a patch is met at the roots of the equation that lie on it, and not at
-// others. `inside` says how far within the patch a point of the quadric is, in its own coordinates; negative
-// outside.
-TEST_CASE("a line meets a patch at the roots within its bounds", "[surfaces]") {
-  struct Bounded {
-    const char* parameters;
-    Quadric quadric;
-    double (*inside)(const dvec3& p);
-  };
-  const Bounded bounded[] = {
-      {cases[0].parameters, cases[0].quadric, [](const dvec3&) { return 1.0; }},
-      // z / c = 1 / -s_z.
-      {cases[2].parameters, cases[2].quadric, [](const dvec3& p) { return within(p.z / 0.5, 0.0, 1 / 0.4); }},
-      // z / c = (1 + s_z) / (1 - s_z).
-      {cases[4].parameters, cases[4].quadric,
-       [](const dvec3& p) { return within(p.z / 3, -1.0, 1.2 / 0.8); }},
-      {cases[6].parameters, cases[6].quadric,
-       [](const dvec3& p) {
-         const double sum = std::atan2(p.y / 2, p.x) * degrees, difference = std::atan(p.z / 0.5) * degrees;
-         double best = -INFINITY;
-         for (const double turn : {-360.0, 0.0, 360.0})
-           best = std::max(best, std::min(within((sum + turn + difference) / 2, -30, 40),
-                                          within((sum + turn - difference) / 2, -20, 35)));
-         return best;
-       }},
-      {cases[8].parameters, cases[8].quadric,
-       [](const dvec3& p) { return std::min(within(p.x + p.y / 2, -1, 2), within(p.x - p.y / 2, -2, 1)); }}};
-  NetMaker make(64);
-  int wrong = 0, doubtful = 0, met = 0, passed_by = 0;
-  std::string which;
-  for (const Bounded& b : bounded) {
-    const Surface surface = build_family(object(b.parameters));
-    Box box;
-    for (const Net& net : surface.patches) box.add(*bounds_of(net));
-    const auto somewhere = [&](double wider) {
-      const dvec3 middle = 0.5 * (box.low + box.high), half = 0.5 * wider * (box.high - box.low);
-      return middle + half * dvec3(make.uniform(-1, 1), make.uniform(-1, 1), make.uniform(-1, 1));
-    };
-    const lmat4 matrix = matrix_of(b.quadric);
-    for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
-      const Tracer tracer({{surface, solver}});
-      for (int k = 0; k < 2000; ++k) {
-        Ray ray;
-        ray.origin = somewhere(4);
-        ray.direction = somewhere(1.2) - ray.origin;
-        const Meeting roots = meet(matrix, ray);
-        int expected = 0;
-        bool doubt = roots.count == 2 && std::abs(roots.t[0] - roots.t[1]) < 1e-6;
-        for (int i = 0; i < roots.count; ++i) {
-          if (roots.t[i] < 0.0) continue;
-          const double inside = b.inside(ray.origin + roots.t[i] * ray.direction);
-          doubt = doubt || std::abs(inside) < 1e-9 || roots.t[i] < 1e-9;
-          expected += inside > 0.0;
-          passed_by += inside < 0.0;
-        }
-        if (doubt) {
-          ++doubtful;
-          continue;
-        }
-        met += expected;
-        if (static_cast<int>(tracer.all(ray).size()) == expected) continue;
-        ++wrong;
-        which = fmt::format("{} ray {}", b.parameters, k);
-      }
-    }
-  }
-  INFO(which << "; " << met << " met, " << passed_by << " roots outside, " << doubtful << " doubtful");
-  CHECK(wrong == 0);
-  CHECK(met > 10000);
-  CHECK(passed_by > 5000);
-  CHECK(doubtful < 10);
 }
 
 TEST_CASE("on a closed ellipsoid every line meets as many patches as roots", "[surfaces]") {
