@@ -130,6 +130,57 @@ TEST_CASE("lines are where their definitions put them, whatever the patch", "[la
   }
 }
 
+TEST_CASE("lines of light in a plane are met where the distance of skew lines is zero", "[layers]") {
+  const char* layers =
+      R"({ "type": "highlight_lines", "count": 5, "thickness": 0.4, "direction": [0.1, 1, 0.2],
+      "position": [0.3, 0.1, 2.5], "step": [0.4, 0, 0.1] },
+    { "type": "reflection_lines", "count": 4, "thickness": 0.5, "direction": [1, 0.1, 0],
+      "position": [0, -1, 3], "step": [0.2, 0.8, 0] })";
+  const Film film = StagedScene(scene_of(R"({ "type": "sphere_tiling" })", layers)).render(1);
+  auto plane = planes(film);
+  WorstCase worst;
+  int lines[2] = {0, 0}, none = 0;
+  for (std::size_t at = 0; at < film.geometry.size(); ++at) {
+    if (film.geometry[at].surface < 0) continue;
+    const dvec3 q = film.geometry[at].point, n = glm::normalize(q);
+    const dvec3 view = glm::normalize(q - dvec3(2, -6, 3)), mirrored = view - 2.0 * glm::dot(view, n) * n;
+    // The distance of line k of light, of direction b through a + k c, from the line through q along d (Beier
+    // and Chen 1994, equation 2). It is linear in k, so that two of them tell where it is zero.
+    const auto zero = [&](const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
+      const auto distance = [&](double k) {
+        return glm::dot(glm::cross(b, d), a + k * c - q) / glm::length(glm::cross(b, d));
+      };
+      return distance(0.0) / (distance(0.0) - distance(1.0));
+    };
+    const dvec3 c(0.4, 0, 0.1), e(0.2, 0.8, 0);
+    const double highlight = zero(dvec3(0.3, 0.1, 2.5) - 2.0 * c, {0.1, 1, 0.2}, c, n);
+    double reflection = zero(dvec3(0, -1, 3) - 1.5 * e, {1, 0.1, 0}, e, mirrored);
+    // What looks down sees no light.
+    if (!(mirrored.z > 0.0)) reflection = -100.0;
+    const auto check = [&](double place, int count, double thickness, const std::string& group, int& drawn) {
+      const bool among = place > -0.5 * thickness && place < count - 1 + 0.5 * thickness;
+      const bool on = among && std::abs(place - std::round(place)) < 0.5 * thickness;
+      const bool sure = std::abs(std::abs(place - std::round(place)) - 0.5 * thickness) > 1e-5;
+      const double shown = plane.at(group + ".place")->at(at);
+      if (among && sure)
+        worst.add(std::abs(shown - place), 1e-6,
+                  [&] { return fmt::format("{} at pixel {}: {} and {}", group, at, shown, place); });
+      if (sure)
+        worst.add(plane.at(group + ".line")->at(at) == (on ? 1.0f : 0.0f) ? 0.0 : 1.0, 0.5,
+                  [&] { return fmt::format("{} at pixel {}: place {}", group, at, place); });
+      drawn += on;
+      none += !among;
+    };
+    check(highlight, 5, 0.4, "HighlightLines", lines[0]);
+    check(reflection, 4, 0.5, "ReflectionLines", lines[1]);
+  }
+  INFO(worst.text());
+  CHECK(worst.failures() == 0);
+  CHECK(lines[0] > 30);
+  CHECK(lines[1] > 30);
+  CHECK(none > 100);
+}
+
 TEST_CASE("the study integrator shows a channel by its colours, and a legend", "[layers]") {
   const char* scene = R"({ "film": { "resolution": [60, 40] }, "sampling": { "spp": 1 },
     "integrator": { "type": "study", "layer": "curvature", "channel": "mean", "range": [-3, -1], "colors": "grey" },
