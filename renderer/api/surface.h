@@ -25,6 +25,13 @@ struct Note {
   std::string meaning;  // "of the interpolation: ..."
 };
 
+// Two sides that a construction glues. Side k of a patch runs from its corner k to the next, counting (1, 0),
+// (0, 1), (0, 0) on a triangle and (0, 0), (1, 0), (1, 1), (0, 1) on a tensor patch.
+struct SideJoin {
+  int patch = 0, side = 0, other = 0, other_side = 0;
+  bool reversed = true;  // they run in opposite directions
+};
+
 // One surface in its own frame. Families build about the origin at unit size; the scene applies radius,
 // centre and transform. `origin` stays apart from the nets, so that a small surface far away loses no bits.
 struct Surface {
@@ -35,6 +42,9 @@ struct Surface {
   // What "show" may name beside the parts that every surface has, or in place of them.
   std::map<std::string, std::vector<Guide>> guides;
   std::vector<Note> notes;
+  // All joints of patches, where the construction knows; elsewhere sides meet that are one curve in space.
+  std::vector<SideJoin> joins;
+  std::vector<std::string> warnings;  // what is allowed and seldom meant: a line each for the user
 };
 
 // One documented parameter, for `rondure describe`. `type` is prose such as "number in (-1, 1)".

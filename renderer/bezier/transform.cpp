@@ -5,11 +5,10 @@
 #include <glm/matrix.hpp>
 
 namespace rondure {
-namespace {
-
-// Whether the determinant is negative. Columns and rows are brought near 1 by powers of two first, so that
-// no scale, uniform or not, makes it underflow or overflow.
-bool mirrors(dmat4 m) {
+// Columns and rows are brought near 1 by powers of two first, so that no scale, uniform or not, makes the
+// determinant underflow or overflow.
+bool mirrors(const dmat4& matrix) {
+  dmat4 m = matrix;
   for (int pass = 0; pass < 2; ++pass) {
     for (int k = 0; k < 4; ++k) {
       const double size =
@@ -21,8 +20,6 @@ bool mirrors(dmat4 m) {
   }
   return glm::determinant(m) < 0.0;
 }
-
-}  // namespace
 
 Net reversed(const Net& net) {
   if (const auto* t = std::get_if<TensorNet>(&net)) {

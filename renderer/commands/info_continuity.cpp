@@ -29,6 +29,7 @@ Json continuity_json(const Continuity& c) {
               {"open_sides", c.open_sides},
               {"collapsed_sides", c.collapsed_sides},
               {"orientable", c.orientable},
+              {"complete", c.complete},
               {"places_on_a_seam", c.places},
               {"gap", worst_of(c.gap)},
               {"tangent_degrees", worst_of(c.tangent)},
@@ -62,6 +63,7 @@ Json regularity_json(const Regularity& r) {
     out["singular"].back()["within"] = s.proof == SingularPoint::Proof::none ? Json(nullptr) : Json(s.within);
   }
   out["complete"] = r.complete;
+  out["work_spent"] = r.spent;
   return out;
 }
 
@@ -93,8 +95,11 @@ std::string seams_text(const Json& c) {
   if (c["collapsed_sides"].get<std::size_t>() > 0)
     out += fmt::format(", {} sides collapsed to a point", c["collapsed_sides"].get<std::size_t>());
   if (!c["orientable"].get<bool>()) out += ", not orientable";
+  if (!c["complete"].get<bool>())
+    out += ", seams perhaps not all found: too many sides run between the same points";
   if (c["seams"].get<std::size_t>() > 0)
-    out += fmt::format("; the worst of {} places on each seam:", c["places_on_a_seam"].get<int>());
+    out += fmt::format("; the worst of {} places on each seam and of peaks between:",
+                       c["places_on_a_seam"].get<int>());
   out += "\n";
   const auto line = [&](const char* key, const char* what, const char* unit) {
     if (c[key].is_null()) return;
@@ -178,7 +183,8 @@ std::string regularity_text(const Json& r) {
     for (const Json& s : r["singular"]) out += fmt::format("      {}\n", place_text(s));
   } else {
     out = fmt::format(
-        "    regular or not is undecided: |Su x Sv| falls to {:.3g} in patch {}, largest found {:.3g}\n",
+        "    regular or not is undecided{}: |Su x Sv| falls to {:.3g} in patch {}, largest found {:.3g}\n",
+        r["work_spent"].get<bool>() ? ", since it would take too much work" : "",
         r["least_found"].get<double>(), r["least_at"]["patch"].get<int>(), r["largest_found"].get<double>());
   }
   return out;

@@ -17,6 +17,9 @@ inline std::vector<std::string> scene_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   for (const SceneObject& object : scene.objects) {
     const Surface& surface = object.traced.surface;
+    for (const std::string& text : surface.warnings)
+      warnings.push_back(fmt::format("{}:{}:{}: warning: {}: {}", scene.path, object.where.line,
+                                     object.where.column, printable(object.name), text));
     const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
     if (surface.closed || surface.ellipsoid || !std::holds_alternative<Dielectric>(material.scattering))
       continue;

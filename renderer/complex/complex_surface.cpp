@@ -128,14 +128,25 @@ RoundedNets nets_of(const std::vector<ExactPatch>& patches) {
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets) {
   const Topology topology = topology_of(complex);
   Surface surface;
+  std::vector<bool> turned = topology.turned;
   std::vector<double> volume(index(topology.parts), 0.0);
   for (std::size_t k = 0; k < nets.size(); ++k) {
-    surface.patches.push_back(topology.turned[k] ? reversed(nets[k]) : std::move(nets[k]));
+    surface.patches.push_back(turned[k] ? reversed(nets[k]) : std::move(nets[k]));
     volume[index(topology.part[k])] += cone_volume(surface.patches.back());
   }
   surface.closed = topology.boundary_edges == 0 && topology.orientable;
   for (std::size_t k = 0; surface.closed && k < surface.patches.size(); ++k) {
-    if (volume[index(topology.part[k])] < 0.0) surface.patches[k] = reversed(surface.patches[k]);
+    if (!(volume[index(topology.part[k])] < 0.0)) continue;
+    surface.patches[k] = reversed(surface.patches[k]);
+    turned[k] = !turned[k];
+  }
+  for (const EdgeJoin& join : complex.joins) {
+    const auto side = [&](const EdgeRef& e) {
+      return turned[index(e.polygon)] ? reversed_side(complex.sides[index(e.polygon)], e.edge) : e.edge;
+    };
+    const bool opposite = join.parameter.at(Exact(0)) != 0;
+    surface.joins.push_back({join.p.polygon, side(join.p), join.q.polygon, side(join.q),
+                             opposite != (turned[index(join.p.polygon)] != turned[index(join.q.polygon)])});
   }
   return surface;
 }

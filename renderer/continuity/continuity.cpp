@@ -1,6 +1,7 @@
 #include "renderer/continuity/continuity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -23,7 +24,8 @@ void raise(WorstAt& worst, double value, int patch, int other, const dvec3& poin
 
 class Meter {
  public:
-  explicit Meter(const std::vector<Net>& patches) : patches_(patches), seams_(find_seams(patches)) {}
+  explicit Meter(const Surface& surface)
+      : patches_(surface.patches), seams_(find_seams(surface.patches, surface.joins)) {}
 
   Continuity run() {
     out_.seams = seams_.seams.size();
@@ -31,10 +33,12 @@ class Meter {
     out_.collapsed_sides = seams_.collapsed.size();
     out_.vertices = seams_.vertices.size();
     out_.orientable = seams_.orientable;
+    out_.complete = seams_.complete;
     const int budget = 100000 / static_cast<int>(std::max<std::size_t>(seams_.seams.size(), 1));
     steps_ = std::clamp(budget, 4, 32);
     out_.places = steps_ + 1;
     for (const Seam& seam : seams_.seams) along(seam);
+    for (std::size_t m = 0; m < 3; ++m) refine(m);
     for (const SeamVertex& v : seams_.vertices) {
       if (!v.closed) continue;
       ++out_.closed_vertices;
@@ -48,29 +52,89 @@ class Meter {
   Seams seams_;
   Continuity out_;
   int steps_ = 32;
+  struct Peak {
+    double value = 0.0, place = 0.0;
+  };
+  std::vector<std::array<Peak, 3>> peaks_;  // of each seam, among the places looked at
 
   const Net& net(int patch) const { return patches_[static_cast<std::size_t>(patch)]; }
   double sign(int patch) const { return seams_.turned[static_cast<std::size_t>(patch)] ? -1.0 : 1.0; }
 
   dvec3 place(const PatchSide& s, double t) const { return point_on_side(net(s.patch), s.side, t); }
 
+  // What is measured at one place of a seam; NaN where it is not known.
+  struct Differences {
+    dvec3 point{0.0};
+    double gap = NAN;
+    std::array<double, 3> jumps{NAN, NAN, NAN};  // of the normal, the mean and the Gaussian curvature
+  };
+
+  Differences differences(const Seam& seam, double s) const {
+    const int a = seam.a.patch, b = seam.b.patch;
+    Differences out;
+    out.point = place(seam.a, s);
+    const double t = foot_on_side(net(b), seam.b.side, out.point, seam.reversed ? 1.0 - s : s).t;
+    out.gap = glm::distance(out.point, place(seam.b, t));
+    const dvec2 ua = side_point(net(a), seam.a.side, s), ub = side_point(net(b), seam.b.side, t);
+    const double turn = seam.reversed ? 1.0 : -1.0;
+    const dvec3 na = unit_normal(net(a), ua.x, ua.y), nb = turn * unit_normal(net(b), ub.x, ub.y);
+    if (na == dvec3(0.0) || nb == dvec3(0.0)) return out;
+    out.jumps[0] = angle_between(na, nb);
+    // At the ends of a side curvature is often not known.
+    if (s <= 0.0 || s >= 1.0) return out;
+    const Curvature ca = curvature(net(a), ua.x, ua.y), cb = curvature(net(b), ub.x, ub.y);
+    out.jumps[1] = std::abs(ca.mean - turn * cb.mean);
+    out.jumps[2] = std::abs(ca.gaussian - cb.gaussian);
+    return out;
+  }
+
+  std::array<WorstAt*, 3> worst() { return {&out_.tangent, &out_.mean, &out_.gaussian}; }
+
   void along(const Seam& seam) {
+    std::array<Peak, 3> peaks;
     for (int k = 0; k <= steps_; ++k) {
       const double s = static_cast<double>(k) / steps_;
-      const dvec3 p = place(seam.a, s);
-      const int a = seam.a.patch, b = seam.b.patch;
-      const double t = foot_on_side(net(b), seam.b.side, p, seam.reversed ? 1.0 - s : s).t;
-      const auto at = [&](WorstAt& worst, double value) { raise(worst, value, a, b, p); };
-      at(out_.gap, glm::distance(p, place(seam.b, t)));
-      const dvec2 ua = side_point(net(a), seam.a.side, s), ub = side_point(net(b), seam.b.side, t);
-      const double turn = seam.reversed ? 1.0 : -1.0;
-      const dvec3 na = unit_normal(net(a), ua.x, ua.y), nb = turn * unit_normal(net(b), ub.x, ub.y);
-      if (na == dvec3(0.0) || nb == dvec3(0.0)) continue;
-      at(out_.tangent, angle_between(na, nb));
-      if (k == 0 || k == steps_) continue;
-      const Curvature ca = curvature(net(a), ua.x, ua.y), cb = curvature(net(b), ub.x, ub.y);
-      at(out_.mean, std::abs(ca.mean - turn * cb.mean));
-      at(out_.gaussian, std::abs(ca.gaussian - cb.gaussian));
+      const Differences d = differences(seam, s);
+      raise(out_.gap, d.gap, seam.a.patch, seam.b.patch, d.point);
+      for (std::size_t m = 0; m < 3; ++m) {
+        raise(*worst()[m], d.jumps[m], seam.a.patch, seam.b.patch, d.point);
+        if (d.jumps[m] > peaks[m].value) peaks[m] = {d.jumps[m], s};
+      }
+    }
+    peaks_.push_back(peaks);
+  }
+
+  // Climbs from the largest values to the peaks between them, by golden sections.
+  void refine(std::size_t m) {
+    constexpr std::size_t most_seams = 64;
+    constexpr int most_steps = 40;
+    constexpr double share = 0.38196601125010515;  // 2 - golden ratio
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < peaks_.size(); ++k) {
+      if (peaks_[k][m].value >= 0.5 * worst()[m]->value && peaks_[k][m].value > 0.0) order.push_back(k);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return peaks_[a][m].value > peaks_[b][m].value; });
+    if (order.size() > most_seams) order.resize(most_seams);
+    for (const std::size_t k : order) {
+      const Seam& seam = seams_.seams[k];
+      const double h = 1.0 / steps_, end = m == 0 ? 0.0 : 0x1p-10 * h;
+      double low = std::max(peaks_[k][m].place - h, end), high = std::min(peaks_[k][m].place + h, 1.0 - end);
+      const auto at = [&](double s) {
+        const Differences d = differences(seam, s);
+        raise(*worst()[m], d.jumps[m], seam.a.patch, seam.b.patch, d.point);
+        return std::isfinite(d.jumps[m]) ? d.jumps[m] : -1.0;
+      };
+      double a = low + share * (high - low), b = high - share * (high - low), fa = at(a), fb = at(b);
+      for (int step = 0; step < most_steps; ++step) {
+        if (fa >= fb) {
+          high = b, b = a, fb = fa;
+          a = low + share * (high - low), fa = at(a);
+        } else {
+          low = a, a = b, fa = fb;
+          b = high - share * (high - low), fb = at(b);
+        }
+      }
     }
   }
 
@@ -108,7 +172,7 @@ class Meter {
 }  // namespace
 
 Continuity continuity_of(const Surface& surface) {
-  Continuity out = Meter(surface.patches).run();
+  Continuity out = Meter(surface).run();
   for (WorstAt* worst : {&out.gap, &out.tangent, &out.mean, &out.gaussian, &out.vertex, &out.vertex_sum}) {
     worst->point += surface.origin;
   }

@@ -17,11 +17,12 @@ struct Continuity {
   std::size_t seams = 0, open_sides = 0, collapsed_sides = 0;
   std::size_t vertices = 0, closed_vertices = 0;  // points of space where corners lie; closed: no open side
   bool orientable = true;
-  int places = 0;    // that are looked at along each seam
-  WorstAt gap;       // distance between two sides of a seam
-  WorstAt tangent;   // angle between the normals along seams, degrees; 180 at a fold
-  WorstAt mean;      // jump of the mean curvature along seams, per unit of length
-  WorstAt gaussian;  // jump of the Gaussian curvature
+  bool complete = true;  // all seams were sought
+  int places = 0;        // that are looked at along each seam
+  WorstAt gap;           // distance between two sides of a seam
+  WorstAt tangent;       // angle between the normals along seams, degrees; 180 at a fold
+  WorstAt mean;          // jump of the mean curvature along seams, per unit of length
+  WorstAt gaussian;      // jump of the Gaussian curvature
   // Angle between any two normals at one closed vertex, degrees; between their lines, up to 90, where the
   // surface is not orientable.
   WorstAt vertex;
@@ -29,7 +30,8 @@ struct Continuity {
 };
 
 // Sampled: at 33 places a seam, both ends included (curvature: only between them), fewer from some 3000 seams
-// on. Places without a normal are left out.
+// on. From the largest values on the 64 seams that have them, golden sections lead on to the peaks between
+// the places. Places without a normal are left out.
 Continuity continuity_of(const Surface& surface);
 
 }  // namespace rondure

@@ -90,6 +90,7 @@ class Search {
 
   const Surface& surface_;
   long budget_;
+  double work_ = 0.0;
   Regularity out_;
   int patch_ = 0;
   double noise_ = 0.0;
@@ -135,6 +136,9 @@ class Search {
     alone_.clear();
     left.push_back({std::move(normal), std::move(weight), std::move(corners), 0});
     std::vector<dvec2> suspects;
+    // A cut takes the power 3/2 of the number of coefficients; below some 250 of them other things do.
+    const double size = static_cast<double>(left.front().normal.coefficients.size());
+    const double work = 1.0 + size * std::sqrt(size) / 4096.0;
     while (!left.empty()) {
       const Piece<N, W> piece = std::move(left.back());
       left.pop_back();
@@ -145,7 +149,9 @@ class Search {
         ++out_.pieces;
         continue;
       }
-      if (piece.depth >= deepest || out_.pieces + static_cast<long>(left.size()) >= budget_) {
+      work_ += work;
+      out_.spent = work_ >= static_cast<double>(budget_);
+      if (piece.depth >= deepest || out_.spent) {
         unproved_ = true;
         if (piece.depth >= deepest)
           suspects.insert(suspects.end(), piece.corners.begin(), piece.corners.end());

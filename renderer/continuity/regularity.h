@@ -34,14 +34,16 @@ struct Regularity {
   std::vector<SingularPoint> singular;  // some of them, where there are many
   // All other places are proved to be regular, but for collapsed sides.
   bool complete = false;
-  long pieces = 0;  // into which the patches were cut
+  bool spent = false;  // the budget ran out
+  long pieces = 0;     // into which the patches were cut
 };
 
 // From the Bernstein coefficients of the normal polynomial N: on a piece of a patch all of them lie on one
 // side of a plane through 0, further away than what rounding can have changed; pieces are halved until they
 // do. `least` is then at least half of `least_found`. A piece at a corner may have zeros among them that
 // vanish there alone, and one near a simple zero inside is settled by Kantorovich's theorem; pieces that
-// shrink to 2^-20 of a patch without a proof are searched for zeros. At most `budget` pieces.
+// shrink to 2^-20 of a patch without a proof are searched for zeros. At most `budget` pieces, fewer of high
+// degree: their work counts.
 Regularity regularity_of(const Surface& surface, long budget = 200000);
 
 }  // namespace rondure

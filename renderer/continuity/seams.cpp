@@ -32,12 +32,13 @@ struct Curve {
   bool used = false;
 };
 
-bool same_curve(const Curve& a, const Curve& b, bool reversed, double tolerance) {
+// `searches` counts down the nearest points that may still be looked for.
+bool same_curve(const Curve& a, const Curve& b, bool reversed, double tolerance, long& searches) {
   for (int k = 0; k <= Curve::steps; ++k) {
     const int other = reversed ? Curve::steps - k : k;
     if (glm::distance(a.points[k], b.points[other]) <= tolerance) continue;
     const double guess = static_cast<double>(other) / Curve::steps;
-    if (k == 0 || k == Curve::steps) return false;
+    if (k == 0 || k == Curve::steps || --searches < 0) return false;
     if (!(foot_on_side(*b.net, b.where.side, a.points[k], guess).distance <= tolerance)) return false;
   }
   return true;
@@ -120,31 +121,61 @@ dvec2 side_point(const Net& net, int side, double t) {
   return (1.0 - t) * corner_at(triangle, side) + t * corner_at(triangle, side + 1);
 }
 
-Seams find_seams(const std::vector<Net>& patches) {
-  Seams out;
-  double size = 0.0;
-  std::vector<Curve> curves = curves_of(patches, size);
-  const double tolerance = 0x1p-30 * size;
-  std::vector<dvec3> starts;
-  for (const Curve& c : curves) starts.push_back(c.points[0]);
-  const std::vector<int> vertex = clustered(starts, tolerance);
-  std::map<std::pair<int, int>, std::vector<std::size_t>> by_ends;
-  std::size_t first = 0;  // of the patch
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    Curve& c = curves[k];
-    if (c.where.side == 0) first = k;
-    const int count = side_count(*c.net);
-    c.from = vertex[k];
-    c.to = vertex[first + index((c.where.side + 1) % count)];
-    const bool collapsed = std::all_of(std::begin(c.points), std::end(c.points), [&](const dvec3& p) {
-      return glm::distance(p, c.points[0]) <= tolerance;
-    });
-    if (collapsed) {
-      out.collapsed.push_back(c.where);
-      c.used = true;
-    } else {
-      by_ends[std::minmax(c.from, c.to)].push_back(k);
+namespace {
+
+// Numbers for vertices, the same for those that are united.
+class Union {
+ public:
+  explicit Union(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void unite(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
+  std::vector<int> numbers() {
+    std::vector<int> of_root(parent_.size(), -1), out;
+    int count = 0;
+    for (std::size_t k = 0; k < parent_.size(); ++k) {
+      int& number = of_root[root(k)];
+      if (number < 0) number = count++;
+      out.push_back(number);
     }
+    return out;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// Corners that the joins glue, by their curve; sides that are a point glue theirs too.
+std::vector<int> glued(const std::vector<Curve>& curves, const std::vector<SideJoin>& joins,
+                       const std::vector<std::size_t>& first, const std::vector<bool>& collapsed) {
+  const auto end = [&](std::size_t k) {
+    const Curve& c = curves[k];
+    return first[index(c.where.patch)] + index((c.where.side + 1) % side_count(*c.net));
+  };
+  Union vertices(curves.size());
+  for (const SideJoin& j : joins) {
+    const std::size_t a = first[index(j.patch)] + index(j.side),
+                      b = first[index(j.other)] + index(j.other_side);
+    vertices.unite(a, j.reversed ? end(b) : b);
+    vertices.unite(end(a), j.reversed ? b : end(b));
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (collapsed[k]) vertices.unite(k, end(k));
+  }
+  return vertices.numbers();
+}
+
+// Pairs of sides that are one curve.
+void match(std::vector<Curve>& curves, double tolerance, Seams& out) {
+  // Different curves between the same two points are told apart by one search each; some 10 microseconds.
+  long searches = 100000;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> by_ends;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (!curves[k].used) by_ends[std::minmax(curves[k].from, curves[k].to)].push_back(k);
   }
   for (const auto& entry : by_ends) {
     const std::vector<std::size_t>& list = entry.second;
@@ -153,13 +184,52 @@ Seams find_seams(const std::vector<Net>& patches) {
       for (std::size_t j = i + 1; j < list.size() && !a.used; ++j) {
         Curve& b = curves[list[j]];
         if (b.used) continue;
-        const bool reversed = a.from == b.to && same_curve(a, b, true, tolerance);
-        if (!reversed && !(a.from == b.from && same_curve(a, b, false, tolerance))) continue;
+        const bool reversed = a.from == b.to && same_curve(a, b, true, tolerance, searches);
+        if (!reversed && !(a.from == b.from && same_curve(a, b, false, tolerance, searches))) continue;
         out.seams.push_back({a.where, b.where, reversed});
         a.used = b.used = true;
       }
     }
   }
+  out.complete = searches >= 0;
+}
+
+}  // namespace
+
+Seams find_seams(const std::vector<Net>& patches, const std::vector<SideJoin>& joins) {
+  Seams out;
+  double size = 0.0;
+  std::vector<Curve> curves = curves_of(patches, size);
+  const double tolerance = 0x1p-30 * size;
+  std::vector<std::size_t> first(patches.size(), 0);  // curve of each patch
+  std::vector<bool> collapsed;
+  std::vector<dvec3> starts;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    Curve& c = curves[k];
+    if (c.where.side == 0) first[index(c.where.patch)] = k;
+    starts.push_back(c.points[0]);
+    collapsed.push_back(std::all_of(std::begin(c.points), std::end(c.points), [&](const dvec3& p) {
+      return glm::distance(p, c.points[0]) <= tolerance;
+    }));
+    if (!collapsed.back()) continue;
+    out.collapsed.push_back(c.where);
+    c.used = true;
+  }
+  const std::vector<int> vertex =
+      joins.empty() ? clustered(starts, tolerance) : glued(curves, joins, first, collapsed);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    Curve& c = curves[k];
+    c.from = vertex[k];
+    c.to = vertex[first[index(c.where.patch)] + index((c.where.side + 1) % side_count(*c.net))];
+  }
+  for (const SideJoin& j : joins) {
+    Curve &a = curves[first[index(j.patch)] + index(j.side)],
+          &b = curves[first[index(j.other)] + index(j.other_side)];
+    if (a.used || b.used) continue;
+    out.seams.push_back({a.where, b.where, j.reversed});
+    a.used = b.used = true;
+  }
+  if (joins.empty()) match(curves, tolerance, out);
   const int vertices = vertex.empty() ? 0 : *std::max_element(vertex.begin(), vertex.end()) + 1;
   out.vertices.resize(index(vertices));
   for (SeamVertex& v : out.vertices) v.closed = true;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "renderer/api/patch.h"
+#include "renderer/api/surface.h"
 
 namespace rondure {
 
@@ -23,7 +23,7 @@ struct Seam {
   bool reversed = true;
 };
 
-// Corners of patches that are one point of space.
+// Corners of patches that are one point of space; where joins are given, corners that they glue.
 struct SeamVertex {
   std::vector<PatchSide> corners;  // `side` is the corner
   bool closed = false;             // every side that ends there is in a seam or is no more than a point
@@ -36,10 +36,12 @@ struct Seams {
   std::vector<PatchSide> collapsed;  // sides that are a single point
   std::vector<bool> turned;          // of each patch: its normal is on the other side than the first one's
   bool orientable = true;            // `turned` fits all seams
+  bool complete = true;              // not so many sides run between the same points that some went untried
 };
 
 // Sides match when both ends and 7 points between lie within 2^-30 of the surface's size from the other side;
-// their parameters may differ. A side that is met by parts of several others counts as open.
-Seams find_seams(const std::vector<Net>& patches);
+// their parameters may differ. A side that is met by parts of several others counts as open. Given joins are
+// taken as they are, so that a surface may pass through itself, and points of it that coincide stay apart.
+Seams find_seams(const std::vector<Net>& patches, const std::vector<SideJoin>& joins);
 
 }  // namespace rondure

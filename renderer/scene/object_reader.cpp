@@ -7,6 +7,7 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
+#include "renderer/continuity/seams.h"
 #include "renderer/intersect/ellipsoid_fit.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/plugin/build_surface.h"
@@ -18,6 +19,12 @@ namespace rondure {
 namespace {
 
 void transform_all(Surface& surface, const dmat4& map) {
+  if (mirrors(map)) {
+    const auto turn = [&](int patch, int& side) {
+      side = reversed_side(side_count(surface.patches[static_cast<std::size_t>(patch)]), side);
+    };
+    for (SideJoin& join : surface.joins) turn(join.patch, join.side), turn(join.other, join.other_side);
+  }
   for (Net& net : surface.patches) net = transformed(net, map);
   for (auto& [part, guides] : surface.guides) {
     for (Guide& guide : guides) {

@@ -118,7 +118,8 @@ TEST_CASE("info tells how patches meet and where they are singular", "[command][
   CHECK(objects[1]["regularity"]["least_certified"].get<double>() > 0.0);
   CHECK_FALSE(objects[2].contains("regularity"));
   const std::string text = info(folder, {"--no-mass"}).out;
-  CHECK(text.find("    12 seams, 0 open sides; the worst of 33 places on each seam:\n      tangent planes "
+  CHECK(text.find("    12 seams, 0 open sides; the worst of 33 places on each seam and of peaks between:\n   "
+                  "   tangent planes "
                   "differ by ") != std::string::npos);
   CHECK(text.find("    singular: Su x Sv vanishes at 2 points, and nowhere else\n      patch 2 at "
                   "(u, v) = (0.447842876926, "

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/rational.h"
 #include "renderer/bezier/transform.h"
 #include "tests/catch.h"
 #include "tests/surfaces/build_family.h"
@@ -177,6 +178,81 @@ TEST_CASE("vertices are measured on surfaces that have no two sides", "[continui
   const Continuity c = continuity_of(of({front, back}));
   CHECK(c.closed_vertices == 4);
   CHECK(c.vertex.patch >= 0);
+}
+
+TEST_CASE("vertices of a complex stay apart where they coincide in space", "[continuity]") {
+  // Three rhombi around a torus: 6 edges and, by Euler's formula, 3 vertices, two of which the shape of
+  // degree 3 brings together. As patches without joins they have one point there with twice the full turn
+  // around it.
+  Surface torus = build_family(R"({"type": "gc_complex", "complex": {"torus": [1, 1]}, "degree": 3})");
+  const Continuity joined = continuity_of(torus);
+  CHECK(joined.seams == 6);
+  CHECK(joined.open_sides == 0);
+  CHECK(joined.closed_vertices == 3);
+  CHECK(joined.vertex_sum.value < 1e-9);
+  CHECK(joined.vertex.value < 1e-9);
+  torus.joins.clear();
+  const Continuity loose = continuity_of(torus);
+  CHECK(loose.closed_vertices == 2);
+  CHECK(loose.vertex_sum.value > 100.0);
+  // The joins are those that are found from the curves, where nothing coincides; mirrored patches too.
+  for (const char* text : {R"({"type": "gc_octahedron"})", R"({"type": "gc_complex"})",
+                           R"({"type": "gc_complex", "complex": "torus"})",
+                           R"({"type": "gc_complex", "complex": {"polygons": [[0, 1, 2], [2, 1, 3, 4]]},
+            "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 1, 1], [1, 2, 1]], "degree": 4})"}) {
+    CAPTURE(text);
+    Surface surface = build_family(text);
+    const Continuity given = continuity_of(surface);
+    surface.joins.clear();
+    const Continuity found = continuity_of(surface);
+    CHECK(given.seams == found.seams);
+    CHECK(given.open_sides == found.open_sides);
+    CHECK(given.vertices == found.vertices);
+    CHECK(given.closed_vertices == found.closed_vertices);
+    CHECK(given.gap.value < 1e-14 * 12);
+    CHECK(given.tangent.value < 1e-11);
+  }
+}
+
+TEST_CASE("the largest jump of curvature is found between the places that are looked at", "[continuity]") {
+  const Surface b = build_family(R"({"type": "gc_octahedron", "control_points": {"h6": [-2, 1, 0]}})");
+  const Continuity c = continuity_of(b);
+  // All seams at 2001 places; both patches have the same parameter on a side or run opposite.
+  double mean = 0.0, gaussian = 0.0;
+  for (const SideJoin& join : b.joins) {
+    const Net &p = b.patches[static_cast<std::size_t>(join.patch)],
+              &q = b.patches[static_cast<std::size_t>(join.other)];
+    for (int k = 1; k < 2000; ++k) {
+      const double s = k / 2000.0;
+      const dvec2 at = side_point(p, join.side, s),
+                  there = side_point(q, join.other_side, join.reversed ? 1.0 - s : s);
+      const Curvature a = curvature(p, at.x, at.y), d = curvature(q, there.x, there.y);
+      mean = std::fmax(mean, std::abs(a.mean - (join.reversed ? d.mean : -d.mean)));
+      gaussian = std::fmax(gaussian, std::abs(a.gaussian - d.gaussian));
+    }
+  }
+  CHECK(c.mean.value >= mean);
+  CHECK(c.gaussian.value >= gaussian);
+  // Near a peak a place 1/4000 away is lower by the second derivative's share.
+  CHECK(c.mean.value < mean * (1 + 1e-4));
+  CHECK(c.gaussian.value < gaussian * (1 + 1e-4));
+}
+
+TEST_CASE("many sides between the same two points are given up in time", "[continuity]") {
+  std::vector<Net> nets;
+  for (int k = 0; k < 600; ++k) {
+    const double a = k * 0.01;
+    TensorNet net(2, 1);
+    for (int j = 0; j <= 1; ++j) {
+      net.at(0, j) = dvec4(0, 0, j, 1);
+      net.at(1, j) = dvec4(0.5, std::cos(a), std::sin(a) + j, 1);
+      net.at(2, j) = dvec4(1, 0, j, 1);
+    }
+    nets.emplace_back(net);
+  }
+  const Continuity c = continuity_of(of(nets));
+  CHECK_FALSE(c.complete);
+  CHECK(continuity_of(of({nets[0], nets[1]})).complete);
 }
 
 }  // namespace rondure
