@@ -148,8 +148,12 @@ ComplexChoice from_object(Params& params) {
   ComplexChoice out;
   if (found == std::string("torus")) {
     const std::vector<std::int64_t> cells = object.integers("torus", 1, 40);
-    if (cells.size() != 2 || cells[0] * cells[1] > 100)
-      object.fail("torus", "\"torus\" is [k, l], numbers of cells with a product of 100 at most");
+    // 3 k l rhombi of 16 coefficients in degree 3, the least that has surfaces.
+    if (cells.size() != 2 || cells[0] * cells[1] > 41)
+      object.fail(
+          "torus",
+          "\"torus\" is [k, l], numbers of cells with a product of 41 at most: 3 k l squares have 2000 "
+          "coefficients at most");
     out = torus(static_cast<int>(cells[0]), static_cast<int>(cells[1]));
   } else if (found == std::string("polygons")) {
     out = from_polygons(object);
@@ -185,7 +189,8 @@ ParameterDoc complex_doc() {
           "\"octahedron\", \"cube\", \"torus\", {\"torus\": [k, l]}, {\"polygons\": [[0, 1, 2], ...]} or "
           "{\"sides\": [3, 4, ...], \"joins\": [...]}",
           "\"cube\"",
-          "what is glued to what: six squares; 3 k l rhombi (k = 4, l = 3); triangles and quadrilaterals as "
+          "what is glued to what: six squares; 3 k l rhombi, k l at most 41 (k = 4, l = 3); triangles and "
+          "quadrilaterals as "
           "lists of vertices; or by edges, each join {\"edges\": [[polygon, edge], [polygon, edge]], "
           "\"reversed\", \"parameter\", and \"fields\" or \"theta\"} with functions of the edge's parameter: "
           "a number, \"p/q\", Bernstein coefficients, or {\"numerator\", \"denominator\"}"};

@@ -29,12 +29,6 @@ NullSpace exact_null_space(const std::vector<SparseRow>& rows, const std::vector
 // clear.
 NullSpace rounded_null_space(const std::vector<SparseRow>& rows, const std::vector<int>& order);
 
-// The same from coefficients rounded to double, with free unknowns chosen so that entries stay of moderate
-// size and good to some 1e-14: by Householder's factorisation with column pivots (Businger and Golub 1965),
-// columns scaled by `preference`, larger for unknowns that should rather be expressed by the others. `gap` is
-// that of the factor's diagonal, and must be 10^3 as above.
-NullSpace balanced_null_space(const std::vector<SparseRow>& rows, const std::vector<double>& preference);
-
 // The largest entry of the basis, in size.
 double largest_entry(const NullSpace& space);
 

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "renderer/complex/null_space.h"
@@ -92,51 +91,6 @@ NullSpace rounded_null_space(const std::vector<SparseRow>& rows, const std::vect
       const double x = -m(pivot_row[c], static_cast<Eigen::Index>(f));
       // Rounding of entries that cancel, relative to 1.
       if (std::abs(x) > 1e-12) vector.emplace_back(order[c], exact_of(x));
-    }
-    std::sort(vector.begin(), vector.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    out.free.push_back(order[f]);
-    out.basis.push_back(std::move(vector));
-  }
-  return out;
-}
-
-NullSpace balanced_null_space(const std::vector<SparseRow>& rows, const std::vector<double>& preference) {
-  NullSpace out;
-  out.exact = false;
-  std::vector<int> order(preference.size());
-  std::iota(order.begin(), order.end(), 0);
-  Dense m = dense_of(rows, order);
-  for (Eigen::Index c = 0; c < m.cols(); ++c) m.col(c) *= preference[static_cast<std::size_t>(c)];
-  Eigen::Index rank = 0;
-  Dense expressed;  // the first unknowns in the order of the pivots by those behind them
-  if (m.rows() > 0) {
-    const Eigen::ColPivHouseholderQR<Dense> qr(m);
-    const Dense& r = qr.matrixR();
-    const Eigen::Index most = std::min(r.rows(), r.cols());
-    const double first = std::abs(r(0, 0));
-    while (rank < most && std::abs(r(rank, rank)) > 1e-10 * first) ++rank;
-    const double floor = 1e-16 * first, next = rank < most ? std::abs(r(rank, rank)) : 0.0;
-    out.gap = std::abs(r(rank - 1, rank - 1)) / std::max(next, floor);
-    if (!(out.gap >= 1e3))
-      throw std::runtime_error(
-          fmt::format("the rank of the continuity conditions is not clear: pivots fall by a factor of {:.3g} "
-                      "only where they should vanish",
-                      out.gap));
-    const Eigen::Index left = r.cols() - rank;
-    expressed =
-        -r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(r.topRightCorner(rank, left));
-    for (Eigen::Index c = 0; c < m.cols(); ++c)
-      order[static_cast<std::size_t>(c)] = static_cast<int>(qr.colsPermutation().indices()(c));
-  }
-  out.rank = static_cast<int>(rank);
-  const auto scale = [&](std::size_t c) { return preference[static_cast<std::size_t>(order[c])]; };
-  const auto pivots = static_cast<std::size_t>(rank);
-  for (std::size_t f = pivots; f < order.size(); ++f) {
-    SparseRow vector{{order[f], Exact(1)}};
-    for (std::size_t c = 0; c < pivots; ++c) {
-      const double x = expressed(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(f - pivots));
-      const double value = x * scale(c) / scale(f);
-      if (std::abs(value) > 1e-14) vector.emplace_back(order[c], exact_of(value));
     }
     std::sort(vector.begin(), vector.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     out.free.push_back(order[f]);

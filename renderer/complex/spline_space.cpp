@@ -1,7 +1,6 @@
 #include "renderer/complex/spline_space.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace rondure {
@@ -36,17 +35,6 @@ SplineSpace spline_space(const SurfaceComplex& complex, int n, std::vector<Polyg
   const std::vector<SparseRow> rows = gc1_conditions(complex, n, space.denominators);
   const std::vector<int> order = elimination_order(complex, n);
   space.solutions = complex.exact ? exact_null_space(rows, order) : rounded_null_space(rows, order);
-  return space;
-}
-
-SplineSpace balanced_spline_space(const SurfaceComplex& complex, int n) {
-  SplineSpace space{n, coefficient_offsets(complex, n), {}, {}};
-  std::vector<double> preference;
-  for (const int sides : complex.sides) {
-    for (int k = 0; k < coefficient_count(sides, n); ++k)
-      preference.push_back(std::ldexp(1.0, -4 * steps_from_boundary(sides, n, k)));
-  }
-  space.solutions = balanced_null_space(gc1_conditions(complex, n, {}), preference);
   return space;
 }
 

@@ -25,11 +25,6 @@ std::vector<int> elimination_order(const SurfaceComplex& complex, int n);
 SplineSpace spline_space(const SurfaceComplex& complex, int n,
                          std::vector<PolygonPolynomial> denominators = {});
 
-// The same space of polynomials, with another basis and to rounding. Around some large complexes the
-// functions above grow exponentially from polygon to polygon; these stay below 10 or so, but none of them is
-// local there.
-SplineSpace balanced_spline_space(const SurfaceComplex& complex, int n);
-
 // The numerator of a basis function on a polygon.
 PolygonPolynomial numerator_of(const SurfaceComplex& complex, const SplineSpace& space, std::size_t function,
                                int polygon);

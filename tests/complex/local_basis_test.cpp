@@ -62,4 +62,37 @@ TEST_CASE("on a torus in degree 3 some functions must be wide", "[complex]") {
   CHECK(largest_entry(space.solutions) < 1e4);
 }
 
+TEST_CASE("rounded bases are local as far as they can be, and small", "[complex]") {
+  // As if they were not rational: the dimensions are known exactly.
+  struct Known {
+    SurfaceComplex complex;
+    int degree;
+    int local;  // functions on 11 polygons at most
+  };
+  for (const Known& known : {Known{octahedron_complex(), 4, 24}, Known{cube_complex(), 4, 54},
+                             Known{torus_complex(4, 3), 3, 72}}) {
+    SurfaceComplex rounded = known.complex;
+    rounded.exact = false;
+    const SplineSpace exact = local_spline_space(known.complex, known.degree);
+    const SplineSpace space = rounded_local_space(rounded, known.degree);
+    CAPTURE(known.complex.sides.size(), space.solutions.gap);
+    CHECK(space.dimension() == exact.dimension());
+    CHECK(space.solutions.gap > 1e10);
+    CHECK(largest_entry(space.solutions) < 16.0);
+    CHECK(std::set<int>(space.solutions.free.begin(), space.solutions.free.end()).size() ==
+          space.dimension());
+    int local = 0;
+    for (std::size_t k = 0; k < space.dimension(); ++k) local += support_of(space, k).size() <= 11;
+    CHECK(local >= known.local);
+    const GcBasis basis = basis_of(known.complex, space);
+    double worst = 0.0;
+    for (std::size_t k = 0; k < basis.functions.size(); k += 10) {
+      const GcDefect d = gc1_defect(known.complex, function_of(basis, k));
+      worst = std::max({worst, d.value, d.derivative});
+    }
+    // Entries are good to some eps of the largest, and derivatives multiply by the degree.
+    CHECK(worst < 1e-12);
+  }
+}
+
 }  // namespace rondure

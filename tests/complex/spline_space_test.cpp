@@ -205,25 +205,6 @@ TEST_CASE("parameters and denominators may be rational", "[complex]") {
   }
 }
 
-TEST_CASE("a torus has functions of moderate size", "[complex]") {
-  const SurfaceComplex torus = torus_complex(4, 3);
-  const SplineSpace exact = spline_space(torus, 3), balanced = balanced_spline_space(torus, 3);
-  CAPTURE(balanced.solutions.gap);
-  CHECK(exact.dimension() == 108);
-  CHECK(balanced.dimension() == 108);
-  CHECK(largest_entry(exact.solutions) > 1e4);
-  CHECK(largest_entry(balanced.solutions) < 10.0);
-  CHECK(balanced.solutions.gap > 1e8);
-  const GcBasis basis = basis_of(torus, balanced);
-  double worst = 0.0;
-  for (std::size_t k = 0; k < basis.functions.size(); k += 20) {
-    const GcDefect d = gc1_defect(torus, function_of(basis, k));
-    worst = std::max({worst, d.value, d.derivative});
-  }
-  // Entries are good to the smallest pivot's share of eps; derivatives multiply by 6.
-  CHECK(worst < 1e-12);
-}
-
 TEST_CASE("singular values find the exact dimensions, with a wide gap", "[complex]") {
   for (const SurfaceComplex& exact : {octahedron_complex(), cube_complex(), torus_complex(2, 2)}) {
     SurfaceComplex same = exact;
