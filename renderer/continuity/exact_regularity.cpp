@@ -34,6 +34,7 @@ class Proof {
 
   ExactRegularity run() {
     out_.least = INFINITY;
+    least_found_ = rounded_.least_found;
     prove_zeros();
     if (out_.singular.empty()) {
       for (patch_ = 0; patch_ < static_cast<int>(surface_.patches.size()) && !out_.spent; ++patch_) {
@@ -64,13 +65,14 @@ class Proof {
   }
 
  private:
-  static constexpr int deepest = 40;
+  static constexpr int deepest = 120;
   static constexpr std::size_t most_undecided = 16;
   static constexpr int most_stuck = 8;  // pieces of a patch that end without a proof
 
   const Surface& surface_;
   const Regularity& rounded_;
   double left_;  // work
+  double least_found_ = 0.0;
   ExactRegularity out_;
   int patch_ = 0;
   const ExactNormal* normal_ = nullptr;
@@ -89,7 +91,10 @@ class Proof {
 
   void prove_zeros() {
     for (const SingularPoint& s : rounded_.singular) {
-      if (out_.spent) return;
+      if (out_.spent) {
+        out_.undecided.push_back(s);
+        continue;
+      }
       const IntegerNet net = integer_net(surface_.patches[static_cast<std::size_t>(s.patch)]);
       // Products of polynomials about the place, of numbers of some 52 bits a degree.
       spend(20.0 * std::pow(net.m + 1.0, 3) * std::pow(net.n + 1.0, 3) * (net.m + net.n));
@@ -99,6 +104,12 @@ class Proof {
         out_.undecided.push_back(s);
       }
     }
+  }
+
+  // A value that |Su x Sv| takes.
+  void note(const dvec2& at) {
+    const SurfaceJet jet = surface_jet(surface_.patches[static_cast<std::size_t>(patch_)], at.x, at.y);
+    least_found_ = std::min(least_found_, glm::length(glm::cross(jet.du, jet.dv)));
   }
 
   void leave(const dvec2& at) {
@@ -119,8 +130,9 @@ class Proof {
       const Piece<N, W> piece = std::move(left.back());
       left.pop_back();
       out_.deepest = std::max(out_.deepest, piece.depth);
+      for (const dvec2& corner : piece.corners) note(corner);
       const double bound = lower_bound(piece);
-      if (bound >= 0.5 * rounded_.least_found && bound > 0.0) {
+      if (bound >= 0.5 * least_found_ && bound > 0.0) {
         out_.least = std::min(out_.least, bound);
         ++out_.pieces;
         continue;

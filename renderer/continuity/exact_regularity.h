@@ -25,8 +25,8 @@ struct ExactRegularity {
 
 // Nets in double precision are rational numbers, so that nothing need be rounded. The normal N of
 // renderer/bezier/normal.h is a Bernstein polynomial; where the coefficients of <a, N> are positive on a
-// piece for one vector a of integers, N has no zero there, and pieces are halved, at most 40 times, until
-// such a vector is found for each and bounds |Su x Sv| by half of what `rounded` found. Zeros that `rounded`
+// piece for one vector a of integers, N has no zero there, and pieces are halved, at most 120 times, until
+// such a vector is found for each and bounds |Su x Sv| by half of the least value found. Zeros that `rounded`
 // found are proved by renderer/continuity/exact_zero.h. `most_work` counts sums of two 64-bit words; 10^9 of
 // them take some 10 seconds.
 ExactRegularity exact_regularity(const Surface& surface, const Regularity& rounded, double most_work = 1e9);

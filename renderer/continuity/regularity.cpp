@@ -78,7 +78,7 @@ class Search {
   }
 
  private:
-  static constexpr int deepest = 40;     // 2^-20 in each direction
+  static constexpr int deepest = 60;     // 2^-30 in each direction
   static constexpr int first_zeros = 8;  // pieces of a 16th, on which zeros are first looked for
   static constexpr std::size_t most_singular = 16;
 

@@ -42,7 +42,7 @@ struct Regularity {
 // side of a plane through 0, further away than what rounding can have changed; pieces are halved until they
 // do. `least` is then at least half of `least_found`. A piece at a corner may have zeros among them that
 // vanish there alone, and one near a simple zero inside is settled by Kantorovich's theorem; pieces that
-// shrink to 2^-20 of a patch without a proof are searched for zeros. At most `budget` pieces, fewer of high
+// shrink to 2^-30 of a patch without a proof are searched for zeros. At most `budget` pieces, fewer of high
 // degree: their work counts.
 Regularity regularity_of(const Surface& surface, long budget = 200000);
 
