@@ -74,6 +74,10 @@ double largest_difference(const Film& a, const Film& b) {
   return worst;
 }
 
+std::vector<double> pixels_of(const StudyOptions& options) {
+  return options.quick ? std::vector{1e-4, 1e-8} : std::vector{1e-2, 1e-4, 1e-6, 1e-8};
+}
+
 long missed_pixels(const Film& film) {
   long missed = 0;
   for (const PixelGeometry& g : film.geometry) missed += g.surface < 0;
@@ -118,12 +122,16 @@ std::string counts_of(const Film& shaded, const Film& truth, bool whole) {
 
 }  // namespace
 
+std::size_t close_ups_a_site(const StudyOptions& options) {
+  return estimator_names().size() * pixels_of(options).size();
+}
+
 CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
-                        const std::string& group, const StudyFolder& folder, const StudyOptions& options) {
+                        const std::string& group, const StudyFolder& folder, const StudyOptions& options,
+                        const std::function<void()>& done) {
   const dvec3 point = vector_at(sites, row, "x", "y", "z"), normal = vector_at(sites, row, "ax", "ay", "az");
   const int side = options.quick ? 16 : 48, zoom = 96 / side;
-  const std::vector<double> pixels =
-      options.quick ? std::vector{1e-4, 1e-8} : std::vector{1e-2, 1e-4, 1e-6, 1e-8};
+  const std::vector<double> pixels = pixels_of(options);
   const std::string stem = fmt::format("{}-{}", subject.name, sites.at(row, "site"));
   const Tracer tracer = tracer_for(scene_of(subject, point, normal, pixels.front(), side), stem, registry);
   const NormalField field(tracer.surfaces().front().surface);
@@ -157,6 +165,7 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
           part + ".txt", key, [&] { return counts_of(shaded(), taker.truth(result.reference), whole); })) >>
           picture.off >> picture.missed >> picture.rejected;
       result.pictures.push_back(std::move(picture));
+      done();
     }
   }
   result.shaded_command = fmt::format("rondure render {}-{:.0e}.json --normals {} --png close-up.png", stem,

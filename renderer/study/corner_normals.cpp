@@ -70,13 +70,14 @@ void study_corner_normals(const StudyOptions& options, const Registry& registry)
     }
   }
   {
-    Progress progress("close-ups", firsts.size(), progress_style(options.quiet));
-    for (const auto& [subject, row] : firsts) {
-      close_ups.push_back(
-          take_close_ups(*subject, registry, sites, row, sites.at(row, "group"), folder, options));
+    Progress progress("close-ups", firsts.size() * close_ups_a_site(options), progress_style(options.quiet));
+    const auto done = [&] {
       progress.advance(1);
       stop_if_interrupted(progress, folder);
-    }
+    };
+    for (const auto& [subject, row] : firsts)
+      close_ups.push_back(
+          take_close_ups(*subject, registry, sites, row, sites.at(row, "group"), folder, options, done));
   }
   folder.write("index.html", corner_page(all, slopes, close_ups, folder, options));
 }

@@ -1,6 +1,7 @@
 // The study of normals at singular points: what `rondure study corner-normals` does.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,12 @@ struct CloseUps {
   std::string shaded_command, error_command;  // that make the first of them
   std::string legend;                         // PNG, of the errors' colours
 };
-CloseUps take_close_ups(const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
-                        const std::string& group, const StudyFolder& folder, const StudyOptions& options);
+// `done` is called after each picture, and may throw.
+CloseUps take_close_ups(
+    const Subject& subject, const Registry& registry, const Table& sites, std::size_t row,
+    const std::string& group, const StudyFolder& folder, const StudyOptions& options,
+    const std::function<void()>& done = [] {});
+std::size_t close_ups_a_site(const StudyOptions& options);
 
 // Which singular points there are, and how that is known: a part of the page.
 std::string sites_section(const Table& families, const Table& sites);

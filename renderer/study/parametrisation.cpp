@@ -142,9 +142,7 @@ std::string figure_of(const Subject& subject, const Compared& compared) {
 }  // namespace
 
 void study_parametrisation(const StudyOptions& options, const Registry& registry) {
-  std::vector<Subject> chosen = subjects_named(options.families);
-  std::erase_if(chosen, [](const Subject& s) { return !s.sphere; });
-  if (chosen.empty()) throw std::runtime_error("none of these families is the whole unit sphere");
+  const std::vector<Subject> chosen = spheres_named(options.families);
   require_image_module();
   const StudyFolder folder(options.output);
   const StudyFolder parts(folder.path("parts"));

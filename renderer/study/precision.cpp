@@ -169,9 +169,7 @@ void study_precision(const StudyOptions& options, const Registry& registry) {
   const std::vector<std::string> names =
       options.families.empty() ? std::vector<std::string>{"cube", "hemispheres", "octants", "gc1_sphere"}
                                : options.families;
-  std::vector<Subject> chosen = subjects_named(names);
-  std::erase_if(chosen, [](const Subject& s) { return !s.sphere; });
-  if (chosen.empty()) throw std::runtime_error("none of these families is the whole unit sphere");
+  const std::vector<Subject> chosen = spheres_named(names);
   const StudyFolder folder(options.output);
   const StudyFolder parts(folder.path("parts"));
   const std::vector<double> radii =

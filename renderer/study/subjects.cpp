@@ -140,6 +140,22 @@ std::vector<Subject> subjects_named(const std::vector<std::string>& names) {
   return chosen;
 }
 
+std::vector<Subject> spheres_named(const std::vector<std::string>& names) {
+  std::vector<Subject> chosen = subjects_named(names);
+  std::erase_if(chosen, [&](const Subject& subject) {
+    if (!subject.sphere && !names.empty()) {
+      std::string known;
+      for (const Subject& other : subjects())
+        if (other.sphere) known += (known.empty() ? "\"" : ", \"") + other.name + "\"";
+      throw std::runtime_error(fmt::format(
+          "family \"{}\" is not the whole unit sphere, which this study compares with; these are: {}",
+          subject.name, known));
+    }
+    return !subject.sphere;
+  });
+  return chosen;
+}
+
 Subject turned(Subject subject) {
   subject.object.replace(subject.object.find('{'), 1,
                          R"({ "transform": [ { "rotate": { "axis": [1, 2, 3], "angle": 40 } } ],)");

@@ -22,6 +22,9 @@ const std::vector<Subject>& subjects();
 // name.
 std::vector<Subject> subjects_named(const std::vector<std::string>& names);
 
+// Of those, in the order of the table, the whole unit spheres. Throws for a name of something else.
+std::vector<Subject> spheres_named(const std::vector<std::string>& names);
+
 // The same in general position. About the axes the tangents of many singular points are exactly along one of
 // them, and their cross product is right in any precision.
 Subject turned(Subject subject);

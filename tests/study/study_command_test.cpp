@@ -131,6 +131,12 @@ TEST_CASE("studies refuse what they do not know", "[study]") {
       run_rondure({"study", "corner-normals", "--families", "hemisphere", "-o", folder + "/a", "--quiet"});
   CHECK(family.exit_code == 1);
   CHECK(family.err == "rondure: error: unknown family \"hemisphere\"; did you mean \"hemispheres\"?\n");
+  const ProcessResult open = run_rondure(
+      {"study", "parametrisation", "--families", "hemispheres,cone_side", "-o", folder + "/a", "--quiet"});
+  CHECK(open.exit_code == 1);
+  CHECK(has(open.err,
+            "rondure: error: family \"cone_side\" is not the whole unit sphere, which this study compares "
+            "with; these are: \"hemispheres\", "));
   ProcessOptions nowhere;
   nowhere.environment["PATH"] = folder;
   const ProcessResult plots =
@@ -159,7 +165,23 @@ TEST_CASE("the sphere is the same from every parametrisation", "[study]") {
     CHECK(table.number(k, "point") < 1e-13);
     CHECK(table.number(k, "missed") == 0);
   }
-  CHECK(has(read_text_file(folder + "/index.html"), number_text(table.number(1, "rmse"))));
+  const std::string page = read_text_file(folder + "/index.html");
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::string row =
+        fmt::format("<tr><td>{}</td><td>{}</td>", table.at(k, "family"), table.at(k, "patches"));
+    for (const char* column : {"rmse", "color", "normal", "point"})
+      row += fmt::format("<td>{}</td>", number_text(table.number(k, column)));
+    CHECK(has(page, row + fmt::format("<td>{}</td></tr>", table.at(k, "missed"))));
+  }
+  CHECK(count_of(page, "src=\"data:image/png;base64,") == 2 * 3);
+  // Taken up again: one part is missing, the rest is not made anew.
+  const auto when = std::filesystem::last_write_time(folder + "/parts/cube.png");
+  std::filesystem::remove(folder + "/parts/octants-map.png");
+  REQUIRE(run_rondure({"study", "parametrisation", "--families", "hemispheres,octants,cube", "--quick", "-o",
+                       folder, "--quiet"})
+              .exit_code == 0);
+  CHECK(read_text_file(folder + "/index.html") == page);
+  CHECK(std::filesystem::last_write_time(folder + "/parts/cube.png") == when);
 }
 
 TEST_CASE("double precision does not depend on scale, single precision does", "[study]") {
@@ -178,7 +200,32 @@ TEST_CASE("double precision does not depend on scale, single precision does", "[
     const double share = table.number(k, "distance") / table.number(k, "radius") * 0x1p-24;
     if (share > 1e-6 && table.number(k, "float_hits") > 0)
       CHECK(table.number(k, "float_sphere") > 0.05 * share);
+    // About the origin it is a float's rounding, at every scale.
+    if (share == 0.0) {
+      CHECK(table.at(k, "float_hits") == table.at(k, "rays"));
+      CHECK(table.number(k, "float_sphere") < 16 * 0x1p-24);
+      CHECK(table.number(k, "float_ray") < 16 * 0x1p-24);
+    }
   }
+  const std::string page = read_text_file(folder + "/index.html");
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    std::string row =
+        fmt::format("<tr><td>cube</td><td>{}</td><td>{}</td><td>64</td>",
+                    number_text(table.number(k, "radius")), number_text(table.number(k, "distance")));
+    for (const std::string kind : {"float_", "double_"}) {
+      row += fmt::format("<td>{}</td>", table.at(k, kind + "hits"));
+      for (const char* what : {"sphere", "ray", "normal"})
+        row += fmt::format("<td>{}</td>", number_text(table.number(k, kind + what)));
+    }
+    CHECK(has(page, row + "</tr>"));
+  }
+  CHECK(count_of(page, "<svg") == 2);
+  // Taken up again from what is there.
+  const auto when = std::filesystem::last_write_time(folder + "/parts/cube-1e+00.csv");
+  REQUIRE(run_rondure({"study", "precision", "--families", "cube", "--quick", "-o", folder, "--quiet"})
+              .exit_code == 0);
+  CHECK(read_text_file(folder + "/index.html") == page);
+  CHECK(std::filesystem::last_write_time(folder + "/parts/cube-1e+00.csv") == when);
 }
 
 }  // namespace
