@@ -78,17 +78,36 @@ std::vector<double> pixels_of(const StudyOptions& options) {
   return options.quick ? std::vector{1e-4, 1e-8} : std::vector{1e-2, 1e-4, 1e-6, 1e-8};
 }
 
-long missed_pixels(const Film& film) {
-  long missed = 0;
-  for (const PixelGeometry& g : film.geometry) missed += g.surface < 0;
-  return missed;
+// Pixels whose ray hits in one of the films only.
+long hit_alone(const Film& a, const Film& b) {
+  long alone = 0;
+  for (std::size_t k = 0; k < a.geometry.size(); ++k)
+    alone += (a.geometry[k].surface < 0) != (b.geometry[k].surface < 0);
+  return alone;
 }
+
+// The surface as another solver meets it, made when first asked for.
+class OtherTracer {
+ public:
+  explicit OtherTracer(const Tracer& tracer) : given_(tracer) {}
+
+  const Tracer& get() {
+    if (!made_)
+      made_.emplace(std::vector{TracedSurface{given_.surfaces().front().surface, Solver::clipping}});
+    return *made_;
+  }
+
+ private:
+  const Tracer& given_;
+  std::optional<Tracer> made_;
+};
 
 // Pictures of one scene by every estimator, taken when first asked for.
 class Taker {
  public:
-  Taker(const std::string& scene, std::string file, const Registry& registry, const Tracer& tracer)
-      : scene_(scene), file_(std::move(file)), registry_(registry), tracer_(tracer) {}
+  Taker(const std::string& scene, std::string file, const Registry& registry, const Tracer& tracer,
+        OtherTracer& other)
+      : scene_(scene), file_(std::move(file)), registry_(registry), tracer_(tracer), other_(other) {}
 
   Film shaded(const std::string& normals) const {
     SceneOverrides overrides;
@@ -105,18 +124,26 @@ class Taker {
     if (!truth_) truth_ = shaded(reference);
     return *truth_;
   }
+  // By clipping, the solver that takes nothing for granted.
+  const Film& checked() {
+    SceneOverrides overrides;
+    overrides.set = {"/sampling/spp=1"};
+    if (!checked_) checked_ = take_picture(scene_, file_, registry_, other_.get(), overrides);
+    return *checked_;
+  }
 
  private:
   const std::string& scene_;
   std::string file_;
   const Registry& registry_;
   const Tracer& tracer_;
-  std::optional<Film> truth_;
+  OtherTracer& other_;
+  std::optional<Film> truth_, checked_;
 };
 
 // "off missed rejected" as text.
-std::string counts_of(const Film& shaded, const Film& truth, bool whole) {
-  return fmt::format("{:.17g} {} {}", largest_difference(shaded, truth), whole ? missed_pixels(shaded) : -1,
+std::string counts_of(const Film& shaded, const Film& truth, const Film& checked) {
+  return fmt::format("{:.17g} {} {}", largest_difference(shaded, truth), hit_alone(shaded, checked),
                      shaded.rejected);
 }
 
@@ -135,7 +162,7 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
   const std::string stem = fmt::format("{}-{}", subject.name, sites.at(row, "site"));
   const Tracer tracer = tracer_for(scene_of(subject, point, normal, pixels.front(), side), stem, registry);
   const NormalField field(tracer.surfaces().front().surface);
-  const bool whole = tracer.surfaces().front().surface.closed;
+  OtherTracer other(tracer);
   SingularSite site;
   site.patch = static_cast<int>(sites.number(row, "patch"));
   site.point = point;  // no subject is moved
@@ -146,8 +173,12 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
     const std::string scene = scene_of(subject, point, normal, pixel, side);
     const std::string file = fmt::format("{}-{:.0e}.json", stem, pixel);
     folder.write(file, scene);
-    Taker taker(scene, file, registry, tracer);
+    Taker taker(scene, file, registry, tracer, other);
     for (const std::string& name : estimator_names()) {
+      if (name == "analytic" && !field.quadric(site.patch)) {
+        done();
+        continue;
+      }
       const std::string part = fmt::format("parts/{}-{:.0e}-{}", stem, pixel, name), key = scene + name;
       std::optional<Film> film;
       const auto shaded = [&]() -> const Film& {
@@ -161,8 +192,9 @@ CloseUps take_close_ups(const Subject& subject, const Registry& registry, const 
       picture.error = folder.kept(part + "-error.png", key, [&] {
         return png_bytes(folder, taker.error(name, result.reference), zoom);
       });
-      std::istringstream(folder.kept(
-          part + ".txt", key, [&] { return counts_of(shaded(), taker.truth(result.reference), whole); })) >>
+      std::istringstream(
+          folder.kept(part + ".txt", key,
+                      [&] { return counts_of(shaded(), taker.truth(result.reference), taker.checked()); })) >>
           picture.off >> picture.missed >> picture.rejected;
       result.pictures.push_back(std::move(picture));
       done();

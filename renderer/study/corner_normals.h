@@ -33,8 +33,8 @@ struct CloseUp {
   double pixel = 0.0;         // size, in radii
   std::string shaded, error;  // PNG
   double off = 0.0;           // largest difference of the shading from that by the reference
-  long missed = 0,
-       rejected = 0;  // pixels without a hit (-1 where the surface may end in the picture), samples
+  // Pixels that the default solver or clipping hits alone, and samples that are not numbers.
+  long missed = 0, rejected = 0;
 };
 struct CloseUps {
   std::string family, group;

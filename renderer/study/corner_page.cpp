@@ -143,25 +143,25 @@ std::string close_up_section(const CloseUps& ups) {
   std::vector<std::vector<std::string>> rows = {head};
   for (const CloseUp& p : ups.pictures) {
     if (rows.back().front() != p.estimator || rows.size() == 1) rows.push_back({p.estimator});
-    const std::string missed = p.missed < 0 ? "" : fmt::format(", {} pixels missed", p.missed);
-    rows.back().push_back(
-        fmt::format("<div style=\"display:flex;gap:3px\">{}{}</div>off by {}{}, {} rejected",
-                    html_picture(p.shaded, p.estimator + ", shaded"),
-                    html_picture(p.error, p.estimator + ", error"), number_text(p.off), missed, p.rejected));
+    rows.back().push_back(fmt::format(
+        "<div style=\"display:flex;gap:3px;min-width:200px\">{}{}</div>off by {}<br>{} missed, {} rejected",
+        html_picture(p.shaded, p.estimator + ", shaded"), html_picture(p.error, p.estimator + ", error"),
+        number_text(p.off), p.missed, p.rejected));
   }
   return html_figure(
       html_table(rows) + html_picture(ups.legend, "legend"),
-      fmt::format("Close-ups of the first of these points, straight down, hits by the default solver, in "
-                  "light at 89&deg; to "
-                  "the normal: left the shading, of which the true value is 0.5 (linear), 4 samples a pixel; "
-                  "right the angle "
-                  "to the {} normal, one sample a pixel, dark to bright from 10<sup>-12</sup> to 10 degrees "
-                  "on a logarithmic "
-                  "scale. Seed 1. \"Off by\": the largest difference of a pixel from the shading by the {} "
-                  "normal. The first "
-                  "by <code>{}</code> and <code>{}</code>, those of other scenes and normals alike.",
-                  ups.reference, ups.reference, html_escaped(ups.shaded_command),
-                  html_escaped(ups.error_command)));
+      fmt::format(
+          "Close-ups of the first of these points, straight down, hits by the default solver, in light at "
+          "89&deg; "
+          "to the normal: left the shading, of which the true value is 0.5 (linear), 4 samples a pixel; "
+          "right "
+          "the angle to the {} normal, one sample a pixel, on a logarithmic scale. Black is where a ray "
+          "passes "
+          "by the surface, or nothing is lit. Seed 1. Off by: the largest difference of a pixel from the "
+          "shading by the {} normal. Missed: pixels that the default solver or <code>clipping</code> hits "
+          "alone. Rejected: samples that are no numbers. The first by <code>{}</code> and <code>{}</code>, "
+          "those of other scenes and normals alike.",
+          ups.reference, ups.reference, html_escaped(ups.shaded_command), html_escaped(ups.error_command)));
 }
 
 }  // namespace
