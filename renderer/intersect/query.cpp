@@ -84,23 +84,24 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
     c.s_error = 2.0 * std::min(error * normal_length * roots.inverse_length2 / roots.half, grazing) +
                 0x1p-52 * std::fabs(q.local.slide + c.s);
     c.extent = e.extent;
+    const Reach reach{roots.direction, c.s_error};
     const int leaving = roots.half > 0.0 ? side : 0;
     c.sign = sphere.outward < 0.0 ? -leaving : leaving;
     Hit hit;
     std::optional<PlaceOnSphere> place;
     // Which way the ray crosses has to be known where it starts on the surface.
     if (sphere.outward == 0.0 && q.ray->start.surface == static_cast<int>(surface)) {
-      place = place_on_sphere(sphere, nets, n);
+      place = place_on_sphere(sphere, nets, n, reach);
       if (!place) continue;
       c.sign = place->outward < 0.0 ? -leaving : leaving;
     }
     if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) continue;
     if (q.mode == Mode::any) {
-      if (place || covers(sphere, nets, n)) return true;
+      if (place || covers(sphere, nets, n, reach)) return true;
       continue;
     }
     if (q.mode == Mode::closest && q.best && hit.t > q.best.t) return false;
-    if (!place) place = place_on_sphere(sphere, nets, n);
+    if (!place) place = place_on_sphere(sphere, nets, n, reach);
     if (!place) continue;
     hit.t_error = c.s_error * q.local.scale;
     hit.surface = static_cast<int>(surface), hit.patch = place->patch;

@@ -28,17 +28,56 @@ dvec2 clamp_to(const SpherePatch& patch, dvec2 p, double& beyond) {
   return patch.triangle ? clamped<TriangleShape>(p, beyond) : clamped<TensorShape>(p, beyond);
 }
 
-// Whether the surface's point at (u, v), of a patch's boundary, is n to within rounding.
-bool shows(const PatchedSphere& sphere, const Net& net, dvec2 p, const dvec3& n) {
+// The surface at (u, v) in the unit sphere's space, and its derivatives.
+struct Image {
+  dvec3 point, du, dv;
+};
+Image image_at(const PatchedSphere& sphere, const Net& net, dvec2 p) {
   const FirstOrder<dvec4> s = net_first(net, p.x, p.y);
   const auto image = [&](const dvec3& x) {
     return sphere.inverse_radius > 0.0 ? x * sphere.inverse_radius : sphere.ellipsoid.inverse * x;
   };
   const dvec3 x = dvec3(s.value) / s.value.w;
-  const dvec3 xu = image(dvec3(s.du) - x * s.du.w), xv = image(dvec3(s.dv) - x * s.dv.w);
-  const double bound = beside_roundoffs * unit_roundoff * (1.0 + largest(image(sphere.center))) +
-                       unit_roundoff * (largest(xu) + largest(xv)) / s.value.w;
-  return largest(image(x - sphere.center) - n) <= bound;
+  return {image(x - sphere.center), image(dvec3(s.du) - x * s.du.w) / s.value.w,
+          image(dvec3(s.dv) - x * s.dv.w) / s.value.w};
+}
+
+// Whether the surface's point at (u, v), of a patch's boundary, is n to within rounding.
+bool shows(const PatchedSphere& sphere, const Net& net, dvec2 p, const dvec3& n, const Reach& reach) {
+  const Image at = image_at(sphere, net, p);
+  const double length2 = glm::dot(reach.direction, reach.direction);
+  const dvec3 off = at.point - n;
+  const double along = std::clamp(glm::dot(off, reach.direction) / length2, -reach.most, reach.most);
+  const dvec3 center = sphere.inverse_radius > 0.0 ? sphere.center * sphere.inverse_radius
+                                                   : sphere.ellipsoid.inverse * sphere.center;
+  const double bound = beside_roundoffs * unit_roundoff * (1.0 + largest(center)) +
+                       unit_roundoff * (largest(at.du) + largest(at.dv));
+  return largest(off - along * reach.direction) <= bound;
+}
+
+// Parameters beside the domain moved into it along the ray, by as little as that takes, if it is within
+// reach; else to the nearest.
+dvec2 into_domain(const PatchedSphere& sphere, const SpherePatch& patch, const Net& net, dvec2 p,
+                  const Reach& reach) {
+  double beyond;
+  const dvec2 nearest = clamp_to(patch, p, beyond);
+  const Image at = image_at(sphere, net, nearest);
+  const double uu = glm::dot(at.du, at.du), uv = glm::dot(at.du, at.dv), vv = glm::dot(at.dv, at.dv);
+  const double u = glm::dot(at.du, reach.direction), v = glm::dot(at.dv, reach.direction);
+  const dvec2 rate = dvec2(vv * u - uv * v, uu * v - uv * u) / (uu * vv - uv * uv);
+  double low = -reach.most, high = reach.most;
+  const auto keep = [&](double value, double slope) {  // value + s slope >= 0
+    if (value + (slope > 0.0 ? high : low) * slope < 0.0) low = INFINITY;
+    if (slope > 0.0) low = std::max(low, -value / slope);
+    if (slope < 0.0) high = std::min(high, -value / slope);
+  };
+  keep(p.x, rate.x), keep(p.y, rate.y);
+  if (patch.triangle)
+    keep(1.0 - p.x - p.y, -rate.x - rate.y);
+  else
+    keep(1.0 - p.x, -rate.x), keep(1.0 - p.y, -rate.y);
+  if (!(low <= high) || !std::isfinite(rate.x + rate.y)) return nearest;
+  return clamp_to(patch, p + std::clamp(0.0, low, high) * rate, beyond);
 }
 
 // The net in the unit sphere's space.
@@ -138,7 +177,8 @@ std::optional<PlaceOnSphere> in_owned_cell(const PatchedSphere& sphere, const Sp
 }
 
 std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const std::vector<Net>& nets,
-                                              const SphereCandidate* candidate, const dvec3& n) {
+                                              const SphereCandidate* candidate, const dvec3& n,
+                                              const Reach& reach) {
   const SpherePatches& all = sphere.patches;
   const SphereCandidate* const begin = candidate;
   // Those well inside first: most points are.
@@ -160,12 +200,14 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
     dvec2 p(candidate->u, candidate->v);
     if (invert(inverse, patch, n, 8, p) < 1e-14) {
       double beyond;
-      p = clamp_to(patch, p + inverse.middle, beyond);
+      p += inverse.middle;
+      const dvec2 nearest = clamp_to(patch, p, beyond);
       // However far: beside a collapsed side rounding turns the parameter along it by any amount.
-      if (shows(sphere, net, p, n)) return PlaceOnSphere{patch.patch, p.x, p.y, patch.outward};
+      const dvec2 q = beyond < 1e-3 ? into_domain(sphere, patch, net, p, reach) : nearest;
+      if (shows(sphere, net, q, n, reach)) return PlaceOnSphere{patch.patch, q.x, q.y, patch.outward};
       if (beyond > 1e-3) continue;
     }
-    if (const auto found = search(sphere, net, n); found && shows(sphere, net, *found, n))
+    if (const auto found = search(sphere, net, n); found && shows(sphere, net, *found, n, reach))
       return PlaceOnSphere{patch.patch, found->x, found->y, patch.outward};
   }
   return std::nullopt;
@@ -196,23 +238,24 @@ dvec3 sphere_point(const SphereRoots& r, int side) noexcept {
 }
 
 std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
-                                             const dvec3& n) noexcept {
+                                             const dvec3& n, const Reach& reach) noexcept {
   const CellPlace at = cell_at(n, sphere.patches.cells_a_side);
   const SphereCell& cell = sphere.patches.cells[at.cell];
   if (cell.owner >= 0)
     if (const auto place = in_owned_cell(sphere, cell, at, n)) return place;
   if (cell.others >= 0)
     return among_candidates(sphere, nets, &sphere.patches.candidates[static_cast<std::size_t>(cell.others)],
-                            n);
+                            n, reach);
   if (cell.owner < 0) return std::nullopt;
   const SphereCandidate alone[2] = {{cell.owner, cell.u[0], cell.v[0]}, {-1, 0.0f, 0.0f}};
-  return among_candidates(sphere, nets, alone, n);
+  return among_candidates(sphere, nets, alone, n, reach);
 }
 
-bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n) noexcept {
+bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n,
+            const Reach& reach) noexcept {
   const CellPlace at = cell_at(n, sphere.patches.cells_a_side);
   const SphereCell& cell = sphere.patches.cells[at.cell];
-  return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, n).has_value();
+  return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, n, reach).has_value();
 }
 
 std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int cells_a_side,

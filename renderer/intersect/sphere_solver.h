@@ -40,16 +40,25 @@ struct PlaceOnSphere {
   double outward;  // as in SpherePatch
 };
 
-// The patch that holds a point of the unit sphere. A point beside all patches, but on one to within rounding
-// (beside_roundoffs), is on that; of such patches on either side of a seam both would take it.
-std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
-                                             const dvec3& n) noexcept;
-// Whether some patch holds it: without parameters, for the most part.
-bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n) noexcept;
+// Where a point of the sphere may be instead, by rounding of the ray that met it.
+struct Reach {
+  dvec3 direction;  // of the ray, in the unit sphere's space
+  double most;      // times the direction, either way
+};
 
-// How far beside a patch a point still counts, relative to the semi-axes: 12 for the patch's own distance from
-// the ellipsoid (ellipsoid_roundoffs), 4 for the point's, and for what a search leaves of a root beside singular
-// points residual_roundoffs in either direction, in two coordinates.
+// The patch that holds a point of the unit sphere. A point beside all patches, but on one to within rounding
+// (beside_roundoffs), is on that; of such patches on either side of a seam both would take it. Rounding moves
+// a point along its ray by much more, where that grazes: a neighbour on a sphere of its own, or none, meets
+// the ray that far on. Hence the point of a patch counts too that the ray passes that closely within reach.
+std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
+                                             const dvec3& n, const Reach& reach) noexcept;
+// Whether some patch holds it: without parameters, for the most part.
+bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n,
+            const Reach& reach) noexcept;
+
+// How far beside a patch a point still counts, relative to the semi-axes: 12 for the patch's own distance
+// from the ellipsoid (ellipsoid_roundoffs), 4 for the point's, and for what a search leaves of a root beside
+// singular points residual_roundoffs in either direction, in two coordinates.
 inline constexpr double beside_roundoffs = 64.0;
 
 }  // namespace rondure
