@@ -1,11 +1,13 @@
 // Rays that no camera makes: not finite, without direction, of extreme length; and rays that lie in a
 // surface.
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
+#include "tests/intersect/closed_models.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/sphere_reference.h"
 #include "tests/surfaces/build_family.h"
@@ -99,6 +101,27 @@ TEST_CASE("t_min and t_max bound the hits", "[hits]") {
   // Behind the origin there is nothing unless it is asked for.
   CHECK_FALSE(tracer.closest({origin, -direction}));
   CHECK(tracer.closest({origin, -direction, -10.0, inf}).t == -far);
+}
+
+TEST_CASE("Of two grazing hits the one on a patch's edge counts as much as the one inside", "[hits]") {
+  // On the sharp edge between two patches, which the ray crosses on one at 20 degrees and on the other at
+  // 0.02: there its two hits are 1.5e-3 apart, and rounding puts one of them at v = -1e-13.
+  const auto& models = closed_models();
+  const auto crystal = std::find_if(models.begin(), models.end(), [](const ClosedModel& m) {
+    return m.name == "casciola/figure_1: crystal";
+  });
+  REQUIRE(crystal != models.end());
+  const Ray ray{dvec3(1.9753159699000471, -0.91974059994657653, 0.11793400923289127),
+                dvec3(-0.61005611566862183, 0.66379403854258323, -0.64716497099963355)};
+  for (const Solver solver : {Solver::newton, Solver::clipping}) {
+    const std::vector<Hit> hits = Tracer({{crystal->surface, solver}}).all(ray);
+    REQUIRE(hits.size() == 4);
+    CHECK(hits[0].patch == 6);
+    CHECK(hits[1].patch == 7);
+    CHECK(std::fabs(hits[1].t - hits[0].t) < 1e-12);
+    CHECK(hits[2].patch == 7);
+    CHECK(hits[3].patch == 5);
+  }
 }
 
 TEST_CASE("A ray that skims a singular corner has its other hit too", "[hits]") {
