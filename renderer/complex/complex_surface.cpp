@@ -6,6 +6,7 @@
 
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/transform.h"
+#include "renderer/complex/weld.h"
 
 namespace rondure {
 namespace {
@@ -126,6 +127,7 @@ RoundedNets nets_of(const std::vector<ExactPatch>& patches) {
 }
 
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets) {
+  weld(complex, nets);
   const Topology topology = topology_of(complex);
   Surface surface;
   std::vector<bool> turned = topology.turned;

@@ -28,8 +28,9 @@ struct RoundedNets {
 };
 RoundedNets nets_of(const std::vector<ExactPatch>& patches);
 
-// The patches, joined as the complex says and turned so that their normals agree, and point outward where the
-// complex is closed and orientable: towards the side for which the volume inside is positive, part by part.
+// The patches, joined as the complex says, their common edges equal to the last bit (weld.h), and turned so
+// that their normals agree, and point outward where the complex is closed and orientable: towards the side
+// for which the volume inside is positive, part by part.
 Surface oriented_surface(const SurfaceComplex& complex, std::vector<Net> nets);
 
 }  // namespace rondure
