@@ -39,6 +39,17 @@ double radius_of(const Surface& surface) {
   return 1.05 * radius;
 }
 
+bool has_singular_corner(const Surface& surface) {
+  for (const Net& net : surface.patches)
+    for (const dvec2 p : {dvec2(0.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0), dvec2(1.0)}) {
+      if (std::holds_alternative<TriangleNet>(net) && p == dvec2(1.0)) continue;
+      const SurfaceJet jet = surface_jet(net, p.x, p.y);
+      if (glm::length(glm::cross(jet.du, jet.dv)) <= 1e-9 * glm::length(jet.du) * glm::length(jet.dv))
+        return true;
+    }
+  return false;
+}
+
 // Candidates in the ball about the frame's zero; an odd number of certified crossings ahead says inside.
 std::vector<dvec3> points_inside(const Surface& surface, double radius) {
   std::vector<dvec3> out;
@@ -63,6 +74,7 @@ ClosedModel model_of(const std::string& name, Surface surface, bool sphere) {
   out.name = name;
   out.radius = sphere ? 1.0 : radius_of(surface);
   out.sphere = sphere;
+  out.singular = has_singular_corner(surface);
   out.band = tangency_band(surface, out.radius) / out.radius;
   out.inside = points_inside(surface, out.radius);
   out.surface = std::move(surface);

@@ -14,6 +14,7 @@ struct ClosedModel {
   Surface surface;
   double radius = 1.0;        // about surface.origin, of a sphere that contains it
   bool sphere = false;        // it is that sphere
+  bool singular = false;      // a corner of a patch has no tangent plane by its first derivatives
   double band = 0.0;          // how far from tangency either answer is right, in radii: `tangency_band`
   std::vector<dvec3> inside;  // points inside, in the world
 };

@@ -22,17 +22,18 @@ namespace {
 constexpr auto classes = static_cast<std::size_t>(RayClass::count);
 constexpr long block = 220;     // rays of one seed
 constexpr long sample = 16384;  // one ray in so many is judged whatever its parity
+constexpr long rare = 64;       // classes whose rays often want the oracle come in one block in so many
 
 struct Tally {
   std::array<long, classes> rays{}, hits{}, in_band{}, judged{};
-  long wrong = 0, uncertified = 0, touches = 0;
+  long wrong = 0, uncertified = 0;
   long exhausted = 0;  // rays on which a search gave up: all are judged
   std::string text;    // of some of what is wrong
 
   void merge(const Tally& o) {
     for (std::size_t k = 0; k < classes; ++k)
       rays[k] += o.rays[k], hits[k] += o.hits[k], in_band[k] += o.in_band[k], judged[k] += o.judged[k];
-    wrong += o.wrong, uncertified += o.uncertified, touches += o.touches, exhausted += o.exhausted;
+    wrong += o.wrong, uncertified += o.uncertified, exhausted += o.exhausted;
     if (text.size() < 4000) text += o.text;
   }
 };
@@ -40,6 +41,10 @@ struct Tally {
 std::string text_of(const Ray& ray) {
   return fmt::format("o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", ray.origin.x,
                      ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z);
+}
+
+dvec3 scaled(const dvec3& v, int exponent) {
+  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
 // Whether `closest` and `occluded` say what `all` says.
@@ -60,19 +65,21 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   tally.exhausted += gave_up;
   ++tally.rays[c];
   tally.hits[c] += static_cast<long>(hits.size());
-  const bool same = index % 8 != 0 || agree(tracer, aimed.ray, hits);
+  const bool same = index % 9 != 0 || agree(tracer, aimed.ray, hits);
   bool odd = aimed.parity >= 0 && hits.size() % 2 != static_cast<std::size_t>(aimed.parity);
   bool known = false;
   if (model.sphere && which != RayClass::from_surface) {
     const SphereReference exact =
-        sphere_reference(aimed.ray.origin, aimed.ray.direction / largest(aimed.ray.direction),
+        // Scaled by a power of two: rounding a direction moves the far end of a ray from 10^8 radii away.
+        sphere_reference(aimed.ray.origin,
+                         scaled(aimed.ray.direction, -std::ilogb(largest(aimed.ray.direction))),
                          model.surface.origin, model.radius);
     known = std::fabs(exact.clearance) <= model.band;
     odd = hits.size() !=
           (exact.clearance < 0.0 ? static_cast<std::size_t>((exact.t[0] >= 0.0) + (exact.t[1] >= 0.0)) : 0);
     tally.in_band[c] += odd && known;
   }
-  const bool judged = (odd && !known) || gave_up || index % sample == 0;
+  const bool judged = (odd && !known) || gave_up || index % sample == sample - 1;
   if (!judged && same) return;
   const double band = model.band * model.radius;
   // A ray that is told to start on the surface is judged beyond its start alone.
@@ -82,15 +89,29 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   ++tally.judged[c];
   tally.in_band[c] += odd && !known && v.right && v.in_band;
   tally.uncertified += !v.certified && !v.in_band;
-  // Where every crossing is the oracle's and their number is still of the wrong parity, the ray touches an
-  // edge or a vertex to rounding, where the verdict, which looks at patches alone, sees no tangency.
-  tally.touches += odd && !known && v.right && v.certified && !v.in_band;
-  if (same && v.right) return;
+  // Where every crossing is the oracle's, their number is only then of the wrong parity when an edge or a
+  // vertex is touched.
+  bool unexplained = odd && !known && v.right && v.certified && !v.in_band;
+  if (unexplained && touches_edge(model.surface, ray)) ++tally.in_band[c], unexplained = false;
+  if (same && v.right && !unexplained) return;
   ++tally.wrong;
-  if (tally.text.size() < 1000)
-    tally.text +=
-        fmt::format("\n{}, {}, {} hits for parity {}{}: {}:{}", model.name, name_of(which), hits.size(),
-                    aimed.parity, same ? "" : ", closest or occluded differ", text_of(aimed.ray), v.text);
+  if (tally.text.size() > 2000) return;
+  tally.text += fmt::format("\n{}, {}, {} hits for parity {}{}{}: {}:{}", model.name, name_of(which),
+                            hits.size(), aimed.parity, same ? "" : ", closest or occluded differ",
+                            unexplained ? ", unexplained" : "", text_of(aimed.ray), v.text);
+  for (const Hit& h : hits)
+    tally.text += fmt::format("\n  hit t {:.17g}, patch {} at ({:.17g}, {:.17g})", h.t, h.patch, h.u, h.v);
+  tally.text += v.seen;
+}
+
+// Whether rays of a class are judged in microseconds nearly always: those that touch, by the analytic sphere
+// alone, if no singular corner makes them long to solve; those that start on a wall or run in a plane of
+// symmetry, by the oracle when there is no sphere.
+bool quick(const ClosedModel& model, RayClass which) {
+  if (which != RayClass::tangential && which != RayClass::from_surface && which != RayClass::axis_aligned &&
+      which != RayClass::extreme_length)
+    return true;
+  return model.sphere && !model.singular && which != RayClass::from_surface;
 }
 
 Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint64_t seed) {
@@ -100,9 +121,11 @@ Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint6
       [&](const tbb::blocked_range<long>& range, Tally tally) {
         for (long b = range.begin(); b < range.end(); ++b) {
           std::mt19937_64 random(seed * 1'000'003u + static_cast<std::uint64_t>(b));
-          for (long k = 0; k < block; ++k)
-            check(model, tracer, static_cast<RayClass>(k % static_cast<long>(classes)), b * block + k, random,
-                  tally);
+          for (long k = 0; k < block; ++k) {
+            const auto which = static_cast<RayClass>(k % static_cast<long>(classes));
+            if (b % rare == 0 || quick(model, which))
+              check(model, tracer, which, b * block + k, random, tally);
+          }
         }
         return tally;
       },
@@ -110,10 +133,10 @@ Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint6
 }
 
 double effort() {
-#ifdef __SANITIZE_ADDRESS__
-  return 0.02;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return 0.001;
 #else
-  return std::getenv("RONDURE_SOAK") ? 50000.0 : 1.0;
+  return std::getenv("RONDURE_SOAK") ? 100.0 : 1.0;
 #endif
 }
 
@@ -121,16 +144,15 @@ void require_clean(const Tally& tally, const std::string& what) {
   std::string table;
   long rays = 0, judged = 0;
   for (std::size_t k = 0; k < classes; ++k) {
-    table += fmt::format("\n  {:<17} {:>12} rays {:>12} hits {:>9} in band",
-                         name_of(static_cast<RayClass>(k)), tally.rays[k], tally.hits[k], tally.in_band[k]);
+    table += fmt::format("\n  {:<17} {:>12} rays {:>12} hits {:>9} in band {:>6} judged",
+                         name_of(static_cast<RayClass>(k)), tally.rays[k], tally.hits[k], tally.in_band[k],
+                         tally.judged[k]);
     rays += tally.rays[k], judged += tally.judged[k];
   }
   WARN(what << ": " << rays << " rays, " << judged << " judged by the oracle (" << tally.uncertified
-            << " of them beyond its proofs), " << tally.touches << " touching an edge or a vertex, "
-            << tally.exhausted << " with a search given up" << table);
+            << " of them beyond its proofs), " << tally.exhausted << " with a search given up" << table);
   INFO(tally.text);
   CHECK(tally.wrong == 0);
-  CHECK(tally.touches <= rays / 10'000);
   for (std::size_t k = 0; k < classes; ++k) CHECK(tally.hits[k] > tally.rays[k] / 4);
 }
 
@@ -143,8 +165,8 @@ TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
     double rays;  // of all the models together
   };
   const Share share =
-      GENERATE(Share{Solver::newton, "newton", 3e4}, Share{Solver::quadric, "quadric", 3e4},
-               Share{Solver::radial, "radial", 1e4}, Share{Solver::clipping, "clipping", 1e4});
+      GENERATE(Share{Solver::newton, "newton", 6e6}, Share{Solver::quadric, "quadric", 6e6},
+               Share{Solver::radial, "radial", 1.2e6}, Share{Solver::clipping, "clipping", 1.2e6});
   Tally tally;
   std::uint64_t seed = 1;
   const auto& models = closed_models();

@@ -185,10 +185,11 @@ AimedRay aim(const ClosedModel& model, RayClass c, std::mt19937_64& random) {
     }
     case RayClass::extreme_length: {
       AimedRay out = a.simple(static_cast<RayClass>(a.below(6)));
-      // To nearly the largest, from as small as leaves t a number: denormal, of few bits, where the model is
-      // small.
-      const int least = std::max(-1060, std::ilogb(model.radius) + 5 - 1020);
-      const int exponent = least + static_cast<int>(a.below(static_cast<std::size_t>(1000 - least)));
+      // From as small as leaves t a number, denormal, of few bits, where the model is small, to as large as
+      // leaves t its 53 bits.
+      const int size = std::ilogb(model.radius);
+      const int least = std::max(-1060, size + 5 - 1020), most = std::min(1000, size + 960);
+      const int exponent = least + static_cast<int>(a.below(static_cast<std::size_t>(most - least)));
       const dvec3 d = out.ray.direction / largest(out.ray.direction);
       for (int k = 0; k < 3; ++k) out.ray.direction[k] = std::ldexp(d[k], exponent);
       return out;

@@ -70,10 +70,22 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
         fmt::format(" crossing at t = {:.17g} (patch {} of {}, outside {:.2g}, cosine {:.3g}) told {} times;",
                     c.t, c.patches.front(), c.patches.size(), c.outside, c.cosine, told[k]);
   }
-  if (!out.right)
-    for (const oracle::Graze& g : meeting.grazes)
-      out.text += fmt::format(" graze at t = {:.17g}, depth {:.3g} radii;", g.t, g.depth / radius);
+  for (const oracle::Root& r : meeting.roots)
+    out.seen += fmt::format(
+        "\n  root t {:.17g}, patch {} at ({:.17g}, {:.17g}), outside {:.3g}, cosine {:.3g}, way {}", r.t,
+        r.patch, r.u, r.v, r.outside, r.cosine, r.way);
+  for (const oracle::Graze& g : meeting.grazes)
+    out.seen += fmt::format("\n  graze t {:.17g}, patch {}, depth {:.3g} radii, outside {:.3g}", g.t, g.patch,
+                            g.depth / radius, g.outside);
   return out;
+}
+
+bool touches_edge(const Surface& surface, const Ray& ray) {
+  constexpr double glancing = 0x1p-8, rounding = 0x1p-44;
+  // Where the cosine is the square root of rounding, roots are that far beside the edge too.
+  for (const oracle::Root& root : oracle::meet(surface, ray, 0x1p-46, 0x1p-22).roots)
+    if (root.cosine <= glancing && root.outside > 0.0 && root.outside * root.cosine <= rounding) return true;
+  return false;
 }
 
 }  // namespace rondure

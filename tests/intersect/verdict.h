@@ -14,6 +14,7 @@ struct Verdict {
   bool in_band = false;  // some of it was rounding's choice: tangency, or the ray's start on a wall
   bool certified = true;
   std::string text;  // what is wrong
+  std::string seen;  // every root and graze of the oracle's
 };
 
 // Each certain crossing of a closed surface must be told exactly once, with t within its claimed error, and
@@ -21,5 +22,10 @@ struct Verdict {
 // within `doubt` (in t) of the ray's t_min are not asked for.
 Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hits, double radius,
               double band, double doubt);
+
+// Whether the line glances off a patch's edge by so little that rounding of the nets, which moves a root by
+// its size over the cosine, decides whether that counts: then the parity of the crossings is rounding's
+// choice, although each of them is certain.
+bool touches_edge(const Surface& surface, const Ray& ray);
 
 }  // namespace rondure

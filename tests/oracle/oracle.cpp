@@ -89,7 +89,7 @@ struct Piece {
 
 class Search {
  public:
-  Search(const Net& net, int patch, const Line& line, double graze, Meeting& out)
+  Search(const Net& net, int patch, const Line& line, double graze, double margin, Meeting& out)
       : net_(net), patch_(patch), line_(line), out_(out) {
     Piece whole;
     whole.f.degrees = net_.xy.degrees;
@@ -373,11 +373,12 @@ bool may_meet(const Net& net, const Line& line) {
 
 }  // namespace
 
-Meeting meet(const Surface& surface, const Ray& ray, double graze) {
+Meeting meet(const Surface& surface, const Ray& ray, double graze, double margin) {
   Meeting out;
   const Line line = line_of(ray, surface.origin);
   for (std::size_t k = 0; k < surface.patches.size(); ++k)
-    if (may_meet(surface.patches[k], line)) Search(surface.patches[k], static_cast<int>(k), line, graze, out);
+    if (may_meet(surface.patches[k], line))
+      Search(surface.patches[k], static_cast<int>(k), line, graze, margin, out);
   std::stable_sort(out.roots.begin(), out.roots.end(),
                    [](const Root& a, const Root& b) { return a.t < b.t; });
   return out;

@@ -16,9 +16,6 @@
 
 namespace rondure::oracle {
 
-// How far outside of its domain, in parameters, a patch's roots are reported too.
-inline constexpr double margin = 0x1p-40;
-
 struct Root {
   int patch = 0;
   double u = 0.0, v = 0.0;
@@ -46,8 +43,8 @@ struct Meeting {
 };
 
 // The surface must have patches. `graze`: up to which depth, relative to the largest coordinate of a net,
-// grazes are told.
-Meeting meet(const Surface& surface, const Ray& ray, double graze = 0x1p-46);
+// grazes are told. `margin`: how far outside of its domain, in parameters, a patch's roots are told too.
+Meeting meet(const Surface& surface, const Ray& ray, double graze = 0x1p-46, double margin = 0x1p-40);
 
 // One crossing of a closed or open surface: roots of neighbouring patches at one place are one.
 struct Crossing {
