@@ -143,10 +143,10 @@ std::string close_up_section(const CloseUps& ups) {
   std::vector<std::vector<std::string>> rows = {head};
   for (const CloseUp& p : ups.pictures) {
     if (rows.back().front() != p.estimator || rows.size() == 1) rows.push_back({p.estimator});
-    rows.back().push_back(fmt::format(
-        "<div style=\"display:flex;gap:3px;min-width:200px\">{}{}</div>off by {}<br>{} missed, {} rejected",
-        html_picture(p.shaded, p.estimator + ", shaded"), html_picture(p.error, p.estimator + ", error"),
-        number_text(p.off), p.missed, p.rejected));
+    rows.back().push_back(fmt::format("<div class=\"pair\">{}{}</div>off by {}<br>{} missed, {} rejected",
+                                      html_picture(p.shaded, p.estimator + ", shaded"),
+                                      html_picture(p.error, p.estimator + ", error"), number_text(p.off),
+                                      p.missed, p.rejected));
   }
   return html_figure(
       html_table(rows) + html_picture(ups.legend, "legend"),

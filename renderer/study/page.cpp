@@ -20,6 +20,7 @@ td, th { padding: 0.2em 0.6em; text-align: right; border-bottom: 1px solid #ddd;
 td:first-child, th:first-child { text-align: left; }
 figure { margin: 1em 0; }
 figcaption { font-size: 13px; color: #444; max-width: 60em; }
+.pair { display: flex; gap: 4px; align-items: flex-start; min-width: 200px; }
 img { image-rendering: pixelated; display: block; }
 svg { max-width: 100%; height: auto; }
 )";

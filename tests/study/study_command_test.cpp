@@ -164,6 +164,9 @@ TEST_CASE("the sphere is the same from every parametrisation", "[study]") {
     CHECK(table.number(k, "normal") < 1e-12);
     CHECK(table.number(k, "point") < 1e-13);
     CHECK(table.number(k, "missed") == 0);
+    // Not the sphere itself, in closed form.
+    CHECK(table.number(k, "normal") > 0.0);
+    CHECK(table.number(k, "rmse") != table.number((k + 1) % 3, "rmse"));
   }
   const std::string page = read_text_file(folder + "/index.html");
   for (std::size_t k = 0; k < 3; ++k) {
