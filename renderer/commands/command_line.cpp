@@ -183,6 +183,8 @@ void add_study(CLI::App& program, CommandLine& line) {
                    "Families, separated by commas; all of the study's by default")
       ->type_name("NAME,...")
       ->delimiter(',');
+  command->add_option("--scene", options->scene,
+                      "For corner-normals: the objects of a scene instead of families");
   command->add_option("-o,--output", options->output, "Folder (the study's name in this folder by default)");
   command->add_flag("--quick", options->quick, "Fewer places and smaller pictures, within a minute");
   command->add_flag("--quiet", options->quiet, "No progress");

@@ -68,6 +68,7 @@ void run_export(const Registry& registry, const ExportCommand& options);
 struct StudyCommand {
   std::string study;                  // corner-normals, parametrisation or precision
   std::vector<std::string> families;  // all where there are none
+  std::string scene;                  // whose objects corner-normals studies instead
   std::string output;                 // a folder; the study's name where it is empty
   bool quick = false, quiet = false;
 };

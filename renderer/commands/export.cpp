@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "renderer/bezier/net_text.h"
 #include "renderer/bezier/triangle_to_tensor.h"
 #include "renderer/commands/commands.h"
 #include "renderer/commands/csv.h"
 #include "renderer/commands/distinct_paths.h"
 #include "renderer/commands/export_preimage.h"
-#include "renderer/commands/net_text.h"
 #include "renderer/scene/scene_reader.h"
 #include "renderer/scene/unknown_name.h"
 

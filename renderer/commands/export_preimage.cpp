@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/api/utf8.h"
+#include "renderer/bezier/net_text.h"
 #include "renderer/bezier/rational.h"
-#include "renderer/commands/net_text.h"
 #include "renderer/projective/preimage.h"
 
 namespace rondure {

@@ -12,7 +12,12 @@
 namespace rondure {
 
 void run_study(const Registry& registry, const StudyCommand& command) {
+  if (!command.scene.empty() && command.study != "corner-normals")
+    throw std::runtime_error("--scene is for the study corner-normals; the others compare whole spheres");
+  if (!command.scene.empty() && !command.families.empty())
+    throw std::runtime_error("--scene takes the place of --families: give one of them");
   StudyOptions options;
+  options.scene = command.scene;
   options.families = command.families;
   options.output = command.output.empty() ? command.study : command.output;
   options.quick = command.quick;
@@ -20,6 +25,7 @@ void run_study(const Registry& registry, const StudyCommand& command) {
   options.command = "rondure study " + command.study;
   if (!command.families.empty())
     options.command += fmt::format(" --families {}", fmt::join(command.families, ","));
+  if (!command.scene.empty()) options.command += " --scene " + command.scene;
   if (command.quick) options.command += " --quick";
   if (command.study == "corner-normals") return study_corner_normals(options, registry);
   if (command.study == "parametrisation") return study_parametrisation(options, registry);

@@ -42,8 +42,9 @@ std::string scene_of(const Subject& subject, const dvec3& point, const dvec3& no
   "objects": [ {} ]
 }}
 )",
-                     vector_text(point + 2.0 * normal), vector_text(point), vector_text(frame.y),
-                     pixel * side, side, side, vector_text(-light), irradiance, object);
+                     vector_text(point + 2.0 * subject.size * normal), vector_text(point),
+                     vector_text(frame.y), pixel * subject.size * side, side, side, vector_text(-light),
+                     irradiance, object);
 }
 
 // What makes a picture of the normals' errors of the scene.

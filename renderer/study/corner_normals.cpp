@@ -34,7 +34,9 @@ CornerTables kept_corners(const Subject& subject, const Registry& registry, cons
 
 void study_corner_normals(const StudyOptions& options, const Registry& registry) {
   std::vector<Subject> chosen;
-  for (const Subject& subject : subjects_named(options.families)) chosen.push_back(turned(subject));
+  for (const Subject& subject :
+       options.scene.empty() ? subjects_named(options.families) : subjects_of_scene(options.scene, registry))
+    chosen.push_back(turned(subject));
   require_gnuplot();
   require_image_module();
   const StudyFolder folder(options.output);

@@ -188,7 +188,8 @@ std::string corner_page(const CornerTables& tables, const Table& slopes,
       "meet any "
       "patch; on an open surface a ray may rightly pass by a place that is nearer to the boundary than the "
       "place is "
-      "rounded. Nothing is random but the samples of the close-ups, whose seed is 1. Commands are for the "
+      "rounded. A radius is that of the sphere, 1; for objects of a scene, half of what they extend. Nothing "
+      "is random but the samples of the close-ups, whose seed is 1. Commands are for the "
       "folder of "
       "this page.</p>\n";
   body += sites_section(tables.families, tables.sites);

@@ -11,6 +11,7 @@ namespace rondure {
 
 struct StudyOptions {
   std::vector<std::string> families;  // all when empty
+  std::string scene;                  // whose objects are studied instead, where it is not empty
   std::string output;                 // folder
   bool quick = false;
   bool quiet = false;

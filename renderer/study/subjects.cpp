@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "renderer/bezier/net_text.h"
+#include "renderer/bezier/rational.h"
 #include "renderer/scene/scene_reader.h"
 #include "renderer/scene/unknown_name.h"
 
@@ -153,6 +156,30 @@ std::vector<Subject> spheres_named(const std::vector<std::string>& names) {
     }
     return !subject.sphere;
   });
+  return chosen;
+}
+
+std::vector<Subject> subjects_of_scene(const std::string& path, const Registry& registry) {
+  const Scene scene = read_scene(path, registry);
+  std::vector<Subject> chosen;
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    const SceneObject& object = scene.objects[k];
+    const Surface& surface = object.traced.surface;
+    if (surface.patches.empty()) continue;
+    Subject subject;
+    subject.name = fmt::format("{}_{}", k, object.type);
+    subject.object = fmt::format(R"({{ "type": "bezier", "closed": {}, "patches": [)", surface.closed);
+    const dvec3 middle = net_point(surface.patches.front(), 0.25, 0.25);
+    subject.size = 0.0;
+    for (const Net& net : surface.patches) {
+      subject.object += (&net == &surface.patches.front() ? "\n  " : ",\n  ") + net_text(net);
+      for (const dvec2& at : {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(0.3, 0.3)})
+        subject.size = std::max(subject.size, 0.5 * glm::distance(net_point(net, at.x, at.y), middle));
+    }
+    subject.object += " ] }";
+    chosen.push_back(std::move(subject));
+  }
+  if (chosen.empty()) throw std::runtime_error(fmt::format("{}: no object has patches to study", path));
   return chosen;
 }
 

@@ -96,6 +96,45 @@ TEST_CASE("a study of corners writes tables and a page that agree", "[study]") {
   CHECK(close.exit_code == 0);
 }
 
+TEST_CASE("a scene's own objects are studied as families are", "[study]") {
+  const std::string folder = fresh_folder("study_scene");
+  write_text_file(folder + "/mine.json", R"({ "objects": [ { "type": "sphere" },
+    { "type": "sphere_tiling", "topology": "hemispheres", "radius": 1e3, "center": [5e3, 0, 0], "name": "a, \"b\"",
+      "transform": [ { "scale": [1, 2, 1] } ] },
+    { "type": "bezier", "patches": [ { "kind": "triangle", "degree": 2, "net": { "200": [1, 0, -1, 1],
+      "020": [-1, 0, -1, 1], "110": [0, 1, 0, 1], "101": [0, 0, 0, 1], "011": [0, 0, 0, 1], "002": [0, 0, 0, 1] } } ] } ] })");
+  const ProcessResult run = run_rondure({"study", "corner-normals", "--scene", folder + "/mine.json",
+                                         "--quick", "-o", folder + "/out", "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const Table sites(read_text_file(folder + "/out/sites.csv")),
+      slopes(read_text_file(folder + "/out/slopes.csv"));
+  REQUIRE(sites.size() == 8 + 1);
+  CHECK(sites.at(0, "family") == "1_sphere_tiling");
+  CHECK(sites.at(8, "family") == "2_bezier");
+  CHECK(sites.at(8, "limit") == "0");
+  CHECK(slopes.at(0, "estimator") == "limit");
+  CHECK(slopes.number(0, "worst") < 1e-12);
+  CHECK(slopes.number(1, "slope") == Approx(-1.0).margin(0.3));
+  // An object of thousands of units is looked at in its own.
+  for (const char* pixel : {"1e-04", "1e-08"})
+    CHECK(has(read_text_file(fmt::format("{}/out/parts/1_sphere_tiling-0-{}-limit.txt", folder, pixel)),
+              " 0 0"));
+  const ProcessResult both = run_rondure({"study", "corner-normals", "--scene", folder + "/mine.json",
+                                          "--families", "cube", "-o", folder + "/x"});
+  CHECK(both.err == "rondure: error: --scene takes the place of --families: give one of them\n");
+  const ProcessResult other =
+      run_rondure({"study", "precision", "--scene", folder + "/mine.json", "-o", folder + "/x"});
+  CHECK(other.err ==
+        "rondure: error: --scene is for the study corner-normals; the others compare whole spheres\n");
+  write_text_file(folder + "/none.json", R"({ "objects": [ { "type": "sphere" } ] })");
+  const ProcessResult none =
+      run_rondure({"study", "corner-normals", "--scene", folder + "/none.json", "-o", folder + "/x"});
+  CHECK(none.exit_code == 1);
+  CHECK(has(none.err, "none.json: no object has patches to study"));
+  CHECK_FALSE(std::filesystem::exists(folder + "/x"));
+}
+
 TEST_CASE("the page opens in a browser without complaints", "[study]") {
   const std::string browser = chromium();
   if (browser.empty()) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "renderer/api/patch.h"
 #include "renderer/bezier/triangle_keys.h"
 
 namespace rondure {
@@ -17,8 +18,8 @@ std::string point_text(const Point& p) {
 }
 
 // An entry of "patches".
-template <class Net>
-std::string tensor_text(const Net& net) {
+template <class Points>
+std::string tensor_text(const Points& net) {
   std::string out = fmt::format(R"({{ "kind": "tensor", "degree": [{}, {}], "net": [)", net.m, net.n);
   for (int i = 0; i <= net.m; ++i) {
     out += i > 0 ? ", [" : "[";
@@ -28,8 +29,8 @@ std::string tensor_text(const Net& net) {
   return out + "] }";
 }
 
-template <class Net>
-std::string triangle_text(const Net& net) {
+template <class Points>
+std::string triangle_text(const Points& net) {
   std::string out = fmt::format(R"({{ "kind": "triangle", "degree": {}, "net": {{ )", net.n);
   for (int i = 0; i <= net.n; ++i) {
     for (int j = 0; j <= net.n - i; ++j)
@@ -37,6 +38,11 @@ std::string triangle_text(const Net& net) {
                          point_text(net.at(i, j)));
   }
   return out + " } }";
+}
+
+inline std::string net_text(const Net& net) {
+  if (const auto* tensor = std::get_if<TensorNet>(&net)) return tensor_text(*tensor);
+  return triangle_text(std::get<TriangleNet>(net));
 }
 
 }  // namespace rondure
