@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "renderer/continuity/continuity.h"
@@ -174,8 +175,10 @@ std::string regularity_text(const Json& r) {
         r["patches_with_collapsed_sides"].get<int>(), r["pieces"].get<long>());
   } else if (verdict == "singular") {
     const std::size_t count = r["singular"].size();
-    out = fmt::format("    singular: Su x Sv vanishes at {} point{}{}{}\n", count, count == 1 ? "" : "s",
-                      count == 16 ? " or more" : "",
+    const bool proved = std::all_of(r["singular"].begin(), r["singular"].end(),
+                                    [](const Json& s) { return s["proof"] != "none"; });
+    out = fmt::format("    singular: Su x Sv vanishes{} at {} point{}{}{}\n", proved ? "" : " to rounding",
+                      count, count == 1 ? "" : "s", count == 16 ? " or more" : "",
                       !r["complete"].get<bool>() ? ""
                       : r["patches_with_collapsed_sides"].get<int>() > 0
                           ? ", and nowhere else but on collapsed sides"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/continuity/exact_normal.h"
@@ -37,6 +38,8 @@ class Proof {
     least_found_ = rounded_.least_found;
     prove_zeros();
     if (out_.singular.empty()) {
+      // What only rounding made look singular stays so unless all of the surface is proved to be regular.
+      const std::vector<SingularPoint> suspects = std::exchange(out_.undecided, {});
       for (patch_ = 0; patch_ < static_cast<int>(surface_.patches.size()) && !out_.spent; ++patch_) {
         const IntegerNet net = integer_net(surface_.patches[static_cast<std::size_t>(patch_)]);
         const std::optional<ExactNormal> normal = exact_normal(net);
@@ -54,6 +57,7 @@ class Proof {
                  TrianglePolynomial<Integer>(net.n, weights(net)), whole_triangle());
         }
       }
+      if (!out_.undecided.empty() || out_.spent) keep(suspects);
     }
     if (!out_.singular.empty()) {
       out_.verdict = Verdict::singular;
@@ -97,13 +101,23 @@ class Proof {
       }
       const IntegerNet net = integer_net(surface_.patches[static_cast<std::size_t>(s.patch)]);
       // Products of polynomials about the place, of numbers of some 52 bits a degree.
-      spend(20.0 * std::pow(net.m + 1.0, 3) * std::pow(net.n + 1.0, 3) * (net.m + net.n));
-      if (const auto within = proved_zero(net, s.u, s.v)) {
+      // Of a square, some of which do not tell; the first one does as a rule.
+      const double square = 4.0 * std::pow(net.m + 1.0, 3) * std::pow(net.n + 1.0, 3) * (net.m + net.n);
+      const int squares = static_cast<int>(std::clamp(left_ / square, 1.0, 5.0));
+      if (const auto within = proved_zero(net, s.u, s.v, squares)) {
+        spend(0.25 * square);
         out_.singular.push_back({s, *within});
       } else {
+        spend(square * squares);
         out_.undecided.push_back(s);
       }
     }
+  }
+
+  // Before what the search left, which lies beside them as a rule.
+  void keep(std::vector<SingularPoint> suspects) {
+    suspects.swap(out_.undecided);
+    for (const SingularPoint& s : suspects) patch_ = s.patch, leave(dvec2(s.u, s.v));
   }
 
   // A value that |Su x Sv| takes.
@@ -166,10 +180,20 @@ class Proof {
     std::vector<dvec3> rounded;
     for (const IntegerVector& c : n)
       rounded.emplace_back(rounded_part(c.x), rounded_part(c.y), rounded_part(c.z));
-    const std::optional<dvec3> direction = separating_direction(rounded, 0.0);
+    Integer most = 0;
+    for (const Integer& w : piece.weight.coefficients) most = std::max(most, Integer(abs(w)));
+    if (most == 0) return 0.0;
+    const Split weight = split(most);
+    // |Su x Sv| where N has length 1 is `share` 2^scale.
+    const double share = normal_->factor / (weight.mantissa * weight.mantissa * weight.mantissa);
+    const long scale = normal_->exponent - doublings(piece.normal, piece.depth) -
+                       3 * (weight.exponent + weight_exponent_ - doublings(piece.weight, piece.depth));
+    const double needed = std::ldexp(0.5 * least_found_ / share, static_cast<int>(-scale - drop));
+    const std::optional<dvec3> direction =
+        separating_direction(rounded, std::isfinite(needed) ? needed : 0.0);
     if (!direction) return 0.0;
     const auto whole = [&](int d) {
-      return static_cast<std::int64_t>(std::lround(0x1p24 * (*direction)[d]));
+      return static_cast<std::int64_t>(std::llround(0x1p52 * (*direction)[d]));
     };
     const std::int64_t a[3] = {whole(0), whole(1), whole(2)};
     Integer low = 0;
@@ -178,18 +202,12 @@ class Proof {
       if (height <= 0) return 0.0;
       if (k == 0 || height < low) low = height;
     }
-    Integer most = 0;
-    for (const Integer& w : piece.weight.coefficients) most = std::max(most, Integer(abs(w)));
-    if (most == 0) return 0.0;
-    const Split height = split(low), weight = split(most);
+    const Split height = split(low);
     const double length =
         std::hypot(static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2]));
-    const double mantissa =
-        height.mantissa / length * normal_->factor / (weight.mantissa * weight.mantissa * weight.mantissa);
-    const long exponent = height.exponent + normal_->exponent - doublings(piece.normal, piece.depth) -
-                          3 * (weight.exponent + weight_exponent_ - doublings(piece.weight, piece.depth));
+    const double mantissa = height.mantissa / length * share;
     // A dozen roundings of an eps each, the least of it downwards.
-    return std::ldexp(mantissa * (1.0 - 0x1p-48), static_cast<int>(exponent));
+    return std::ldexp(mantissa * (1.0 - 0x1p-48), static_cast<int>(height.exponent + scale));
   }
 
   // By how many powers of 2 a polynomial has grown in `depth` cuts: those of u, and in turn of v.

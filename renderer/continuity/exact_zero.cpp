@@ -73,10 +73,9 @@ std::vector<Local> powers(const Local& base, int most) {
   return out;
 }
 
-// The net's four coordinates about (u, v) = (a + b s, c + b t) / 2^bits, all times one positive number.
+// The net's four coordinates about (u, v) = (a + b s, c + b t) / one, all times one positive number.
 std::array<Local, 4> expanded(const IntegerNet& net, const Integer& a, const Integer& c, const Integer& b,
-                              int bits) {
-  const Integer one = Integer(1) << bits;
+                              const Integer& one) {
   const auto u = powers(linear(a, b, 0), net.m), v = powers(linear(c, 0, b), net.n);
   const auto u1 = powers(net.triangle ? linear(one - a - c, -b, -b) : linear(one - a, -b, 0), net.m);
   const auto v1 = powers(linear(one - c, 0, -b), net.n);
@@ -151,27 +150,55 @@ bool zero_at(const std::array<Local, 4>& x) {
   return minor(1, 2, 3) == 0 && minor(2, 0, 3) == 0 && minor(0, 1, 3) == 0;
 }
 
+// x as a whole number of parts, of which there are `parts` in 1.
+struct Fraction {
+  std::int64_t whole = 0, parts = 1;
+  double value() const { return static_cast<double>(whole) / static_cast<double>(parts); }
+};
+
+Fraction dyadic(double x, int bits) { return {std::llround(std::ldexp(x, bits)), std::int64_t{1} << bits}; }
+
+// That of fewest parts within `distance` of x, which is from 0 to 1; x itself where there is none of 1000
+// parts.
+Fraction simplest_near(double x, double distance) {
+  for (std::int64_t parts = 1; parts <= 1000; ++parts) {
+    const Fraction f{std::llround(x * static_cast<double>(parts)), parts};
+    if (std::abs(f.value() - x) <= distance) return f;
+  }
+  return dyadic(x, 52);
+}
+
+bool zero_at(const IntegerNet& net, const Fraction& u, const Fraction& v) {
+  const Integer one = Integer(u.parts) * v.parts, a = Integer(u.whole) * v.parts,
+                c = Integer(v.whole) * u.parts;
+  const bool inside = a >= 0 && c >= 0 && (net.triangle ? a + c <= one : a <= one && c <= one);
+  return inside && zero_at(expanded(net, a, c, 1, one));
+}
+
 }  // namespace
 
-std::optional<double> proved_zero(const IntegerNet& net, double u, double v) {
+std::optional<double> proved_zero(const IntegerNet& net, double u, double v, int most_squares) {
   if (net.m < 1 || net.n < 1) return std::nullopt;
   constexpr int bits = 52;
-  const auto grid = [](double x) { return Integer(static_cast<std::int64_t>(std::ldexp(x, bits))); };
-  const Integer one = Integer(1) << bits;
-  // The place itself, and what it may have been before it was found by steps.
-  for (const int coarse : {bits, 20}) {
-    const auto at = [&](double x) { return std::ldexp(std::nearbyint(std::ldexp(x, coarse)), -coarse); };
-    if (zero_at(expanded(net, grid(at(u)), grid(at(v)), Integer(1), bits))) {
-      if (at(u) == u && at(v) == v) return 0.0;
-      return std::max(std::abs(at(u) - u), std::abs(at(v) - v));
-    }
+  const Fraction own_u = dyadic(u, bits), own_v = dyadic(v, bits);
+  if (own_u.value() == u && own_v.value() == v && zero_at(net, own_u, own_v)) return 0.0;
+  // What it may have been before it was found by steps.
+  const auto exactly_at = [&](const Fraction& x, const Fraction& y) -> std::optional<double> {
+    if (!zero_at(net, x, y)) return std::nullopt;
+    return std::max(std::abs(x.value() - u), std::abs(y.value() - v)) + 0x1p-53;
+  };
+  for (const int size : {40, 26, 20}) {
+    const double distance = std::ldexp(1.0, -size);
+    if (const auto within = exactly_at(simplest_near(u, distance), simplest_near(v, distance))) return within;
   }
-  const Integer a = grid(u), c = grid(v);
+  if (const auto within = exactly_at(dyadic(u, 20), dyadic(v, 20))) return within;
+  const Integer one = Integer(1) << bits, a = own_u.whole, c = own_v.whole;
   for (const int size : {44, 36, 28, 20, 12}) {
+    if (--most_squares < 0) break;
     const Integer b = Integer(1) << (bits - size);
     const bool inside =
         a >= b && c >= b && (net.triangle ? a + c + 2 * b <= one : a + b <= one && c + b <= one);
-    if (inside && zero_inside(expanded(net, a, c, b, bits))) return std::ldexp(1.0, -size);
+    if (inside && zero_inside(expanded(net, a, c, b, one))) return std::ldexp(1.0, -size) + 0x1p-53;
   }
   return std::nullopt;
 }

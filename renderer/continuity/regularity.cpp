@@ -37,6 +37,24 @@ double rounding_of(const Net& net) {
   return 3.0 * 4.0 * n * n * weight * space * off;
 }
 
+// The net with its largest coordinate and weight brought to between 1/2 and 1 by powers of 2, so that N
+// neither overflows nor vanishes; `doublings` is that of points in space.
+Net balanced(Net net, int& doublings) {
+  double space = 0.0, weight = 0.0;
+  for (const dvec4& p : points_of(net)) {
+    space = std::max({space, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    weight = std::max(weight, std::abs(p.w));
+  }
+  int of_space = 0, of_weight = 0;
+  std::frexp(space, &of_space);
+  std::frexp(weight, &of_weight);
+  for (dvec4& p : points_of(net)) {
+    for (int d = 0; d < 4; ++d) p[d] = std::ldexp(p[d], d < 3 ? -of_space : -of_weight);
+  }
+  doublings = of_weight - of_space;
+  return net;
+}
+
 bool is_end(double x) { return x == 0.0 || x == 1.0; }
 
 class Search {
@@ -47,7 +65,7 @@ class Search {
 
   Regularity run() {
     for (patch_ = 0; patch_ < static_cast<int>(surface_.patches.size()); ++patch_) {
-      const Net& net = surface_.patches[static_cast<std::size_t>(patch_)];
+      const Net net = balanced(surface_.patches[static_cast<std::size_t>(patch_)], doublings_);
       noise_ = rounding_of(net);
       if (const auto* t = std::get_if<TensorNet>(&net)) {
         TensorPolynomial<double> factor, weight(t->m, t->n);
@@ -94,6 +112,7 @@ class Search {
   Regularity out_;
   int patch_ = 0;
   double noise_ = 0.0;
+  int doublings_ = 0;  // of the patch at hand, as it is judged
   bool unproved_ = false;
   std::optional<ZeroFinder> finder_;  // of the patch at hand
   std::vector<Known> alone_;
@@ -215,7 +234,7 @@ class Search {
     return separating_direction(rest, noise_at(piece.depth)) ? found : std::nullopt;
   }
 
-  // Of |N| / w^3 on the piece.
+  // Of |N| / w^3 on the piece, as it was before it was balanced.
   template <class N, class W>
   double lower_bound(const Piece<N, W>& piece) const {
     double largest_weight = 0.0;
@@ -225,7 +244,7 @@ class Search {
     if (!direction) return 0.0;
     double low = std::numeric_limits<double>::infinity();
     for (const dvec3& n : piece.normal.coefficients) low = std::min(low, glm::dot(n, *direction));
-    return (low - noise) / (largest_weight * largest_weight * largest_weight);
+    return std::ldexp((low - noise) / (largest_weight * largest_weight * largest_weight), -2 * doublings_);
   }
 
   // Halving adds half an eps of the coefficients at every level and degree.

@@ -159,40 +159,6 @@ TEST_CASE("exact proofs of regularity: nothing is proved that is not so, and wor
   CHECK_FALSE(poor.undecided.empty());
 }
 
-// Whitney's umbrella (U V, U, V^2) with U = u - at.x, V = v - at.y: one singular point, there.
-static Surface umbrella(const dvec2& at) {
-  TensorNet net(1, 2);
-  for (int i = 0; i <= 1; ++i) {
-    for (int j = 0; j <= 2; ++j) {
-      const double x = i - at.x, first = (j > 0 ? 1 : 0) - at.y, second = (j > 1 ? 1 : 0) - at.y;
-      net.at(i, j) = dvec4(0.5 * x * (first + second), x, first * second, 1);
-    }
-  }
-  Surface surface;
-  surface.patches.emplace_back(net);
-  return surface;
-}
-
-TEST_CASE("a pinch just outside a patch is told from one inside", "[regularity]") {
-  for (const double distance : {1e-3, 1e-7}) {
-    const Surface outside = umbrella({-distance, 0.3}), inside = umbrella({distance, 0.3});
-    CAPTURE(distance);
-    const Regularity r = regularity_of(outside);
-    CHECK(r.verdict == Verdict::regular);
-    // |Su x Sv|^2 = U^2 + 4 V^2 + 4 V^4 is at least the square of the distance.
-    CHECK(r.least <= distance * (1 + 1e-9));
-    CHECK(r.least > 0.3 * distance);
-    CHECK(certified(outside).verdict == Verdict::regular);
-    CHECK(regularity_of(inside).verdict == Verdict::singular);
-    CHECK(certified(inside).verdict == Verdict::singular);
-  }
-  // In integers no distance is too small.
-  const ExactRegularity near = certified(umbrella({-1e-12, 0.3}));
-  CHECK(near.verdict == Verdict::regular);
-  CHECK(near.least <= 1e-12 * (1 + 1e-9));
-  CHECK(near.deepest > 60);
-}
-
 TEST_CASE("the cross-caps of Figure 3 (d) are found", "[regularity]") {
   const Surface surface = figure_3d();
   const Regularity r = regularity_of(surface);
