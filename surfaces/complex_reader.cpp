@@ -147,7 +147,7 @@ ComplexChoice from_object(Params& params) {
   if (!found) object.fail("a complex is given by \"torus\", \"polygons\", or \"sides\" and \"joins\"");
   ComplexChoice out;
   if (found == std::string("torus")) {
-    const std::vector<std::int64_t> cells = object.integers("torus", 1, 40);
+    const std::vector<std::int64_t> cells = object.integers("torus", 1, 41);
     // 3 k l rhombi of 16 coefficients in degree 3, the least that has surfaces.
     if (cells.size() != 2 || cells[0] * cells[1] > 41)
       object.fail(

@@ -65,18 +65,12 @@ void weld(const SurfaceComplex& complex, std::vector<Net>& nets) {
     if (from.size() != to.size()) continue;
     for (std::size_t& k : from) k += begin[a];
     for (std::size_t& k : to) k += begin[b];
-    const auto agree = [&] {
-      for (std::size_t k = 0; k < from.size(); ++k) {
-        const dvec4 d = points[from[k]] - points[to[k]];
-        for (int c = 0; c < 4; ++c)
-          if (!(std::fabs(d[c]) <= 0x1p-44 * size)) return false;
-      }
-      return true;
-    };
-    bool same = agree();
-    if (!same) {
-      std::reverse(to.begin(), to.end());
-      same = agree();
+    // By points alone a short edge could be taken for its reverse.
+    if (join.parameter.at(Exact(0)) != 0) std::reverse(to.begin(), to.end());
+    bool same = true;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const dvec4 d = points[from[k]] - points[to[k]];
+      for (int c = 0; c < 4; ++c) same = same && std::fabs(d[c]) <= 0x1p-44 * size;
     }
     for (std::size_t k = 0; same && k < from.size(); ++k) groups.join(from[k], to[k]);
   }
