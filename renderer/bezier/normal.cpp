@@ -210,9 +210,9 @@ int degree_of(const Net& net) {
 }
 
 // The estimates of a cross product's error are that up to a small factor: with these no normal beside a
-// singular point of the studies' subjects is more than 6e-13 off, and a regular hit takes no longer than with
+// singular point of the studies' subjects is more than 3e-13 off, and a regular hit takes no longer than with
 // larger ones.
-constexpr double singular = 5e-3;
+constexpr double singular = 2e-2;
 constexpr double accurate = 2e-13;  // of the relative error of a cross product
 
 // The cross product of the tangents in units of the net's spread, in which it neither overflows nor
