@@ -26,8 +26,10 @@ std::pair<CLI::App*, Options*> add(CLI::App& program, CommandLine& line, const c
   // The program's own options, --plugin, may also stand after the sub-command's name.
   command->fallthrough();
   auto options = std::make_shared<Options>();
-  command->callback(
-      [&line, options, run] { line.action = [options, run](const Registry& r) { run(r, *options); }; });
+  command->callback([&line, options, run] {
+    if constexpr (requires { options->plugins; }) options->plugins = line.plugins;
+    line.action = [options, run](const Registry& r) { run(r, *options); };
+  });
   return {command, options.get()};
 }
 

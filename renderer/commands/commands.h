@@ -70,6 +70,7 @@ struct StudyCommand {
   std::vector<std::string> families;  // all where there are none
   std::string scene;                  // whose objects corner-normals studies instead
   std::string output;                 // a folder; the study's name where it is empty
+  std::vector<std::string> plugins;   // of the command line, for the page to repeat
   bool quick = false, quiet = false;
 };
 void run_study(const Registry& registry, const StudyCommand& options);

@@ -105,7 +105,9 @@ Table corner_slopes(const Table& walks) {
   for (const auto& [family, group] : groups) {
     for (const std::string& name : estimator_names()) {
       std::vector<double> distances, errors;
-      double worst = 0.0, near = 0.0, radiance = 0.0;
+      // Not numbers where the estimator gives no normal to measure.
+      const double nan = std::nan("");
+      double worst = nan, near = nan, radiance = 0.0;
       int none = 0;
       for (std::size_t k = 0; k < walks.size(); ++k) {
         if (walks.at(k, "family") != family || walks.at(k, "group") != group) continue;
@@ -117,11 +119,10 @@ Table corner_slopes(const Table& walks) {
         }
         distances.push_back(d);
         errors.push_back(error);
-        worst = std::max(worst, error);
-        if (std::abs(std::log10(d) + 8.0) < 0.2) near = std::max(near, error);
+        worst = std::fmax(worst, error);
+        if (std::abs(std::log10(d) + 8.0) < 0.2) near = std::fmax(near, error);
       }
       const std::optional<Slope> slope = fitted_slope(distances, errors);
-      const double nan = std::nan("");
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", family, group, name,
                           csv_number(slope ? slope->value : nan), csv_number(slope ? slope->low : nan),
                           csv_number(slope ? slope->high : nan), slope ? slope->places : 0, csv_number(worst),
