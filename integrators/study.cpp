@@ -69,6 +69,9 @@ ColorScale read_scale(Params& params) {
   if (!(scale.range.x < scale.range.y)) params.fail("range", "\"range\" must be [low, high] with low < high");
   if (scale.logarithmic && !(scale.range.x > 0.0))
     params.fail("scale", "\"log\" needs a \"range\" of positive numbers");
+  // What the places of colours and of the legend's ticks are parts of.
+  const double width = scale.logarithmic ? scale.range.y / scale.range.x : scale.range.y - scale.range.x;
+  if (!std::isfinite(width)) params.fail("range", "\"range\" is too wide for a double's exponent");
   scale.map = params.choice("colors", {"viridis", "diverging", "grey"}, "viridis");
   return scale;
 }

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "renderer/layers/layers.h"
+#include "renderer/normals/direction.h"
 #include "renderer/sampling/warps.h"
 
 namespace rondure {
@@ -37,9 +38,9 @@ Lines read_lines(Params& params, int count) {
   Lines lines;
   lines.count = static_cast<int>(params.integer("count", count, 1, 10000));
   lines.thickness = params.number("thickness", 0.3, {0.0, 1.0, true, true});
-  const dvec3 direction = params.vec3("direction", dvec3(0.0, 0.0, 1.0));
-  if (!(glm::length(direction) > 0.0)) params.fail("direction", "\"direction\" must not be zero");
-  lines.direction = glm::normalize(direction);
+  const auto direction = direction_of(params.vec3("direction", dvec3(0.0, 0.0, 1.0)));
+  if (!direction) params.fail("direction", "\"direction\" must not be zero");
+  lines.direction = *direction;
   return lines;
 }
 

@@ -90,9 +90,9 @@ TEST_CASE("where no quadric is known errors say so", "[layers]") {
 }
 
 TEST_CASE("lines are where their definitions put them, whatever the patch", "[layers]") {
-  const char* layers = R"({ "type": "isophotes", "count": 10, "direction": [0, 0, 2] },
+  const char* layers = R"({ "type": "isophotes", "count": 10, "direction": [0, 0, 2e200] },
     { "type": "reflection_lines", "count": 12, "thickness": 0.25, "direction": [0, 1, 0] },
-    { "type": "highlight_lines", "direction": [1, 0, 0] })";
+    { "type": "highlight_lines", "direction": [1e-200, 0, 0] })";
   const StagedScene sphere(scene_of(R"({ "type": "sphere" })", layers));
   const Film truth = sphere.render(1);
   for (const char* object :
