@@ -31,7 +31,7 @@ class Study : public Integrator {
       : layer_(std::move(layer)), channel_(channel), scale_(std::move(scale)) {}
 
   dvec3 radiance(const World& world, const Ray& ray, const Hit& first, Sampler&) const override {
-    if (!first) return dvec3(0.0);
+    if (!first && !layer_.misses) return dvec3(0.0);
     std::vector<double> values(layer_.channels.size(), 0.0);
     layer_.function(world, ray, first, values.data());
     return mapped_color(scale_.map, scale_.place(values[channel_]));
@@ -62,9 +62,13 @@ std::size_t read_channel(Params& params, const FilmLayer& layer) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-ColorScale read_scale(Params& params) {
+// `own`: what the channel has itself, where the scene gives neither range nor scale.
+ColorScale read_scale(Params& params, const LayerScale& own) {
   ColorScale scale;
-  scale.logarithmic = params.choice("scale", {"linear", "log"}, "linear") == "log";
+  const bool given = params.raw("range") || params.raw("scale");
+  if (!given) scale.range = {own.low, own.high};
+  const bool log = params.choice("scale", {"linear", "log"}, "linear") == "log";
+  scale.logarithmic = given ? log : own.logarithmic;
   scale.range = params.vec2("range", scale.range);
   if (!(scale.range.x < scale.range.y)) params.fail("range", "\"range\" must be [low, high] with low < high");
   if (scale.logarithmic && !(scale.range.x > 0.0))
@@ -84,7 +88,8 @@ std::unique_ptr<Integrator> create(Params& params) {
   const Value* value = params.raw("layer");
   FilmLayer layer = read_layer(value ? *value : fallback, params, "layer", *params.registry());
   const std::size_t channel = read_channel(params, layer);
-  return std::make_unique<Study>(std::move(layer), channel, read_scale(params));
+  const ColorScale scale = read_scale(params, layer.scales[channel]);
+  return std::make_unique<Study>(std::move(layer), channel, scale);
 }
 
 }  // namespace
@@ -92,12 +97,16 @@ std::unique_ptr<Integrator> create(Params& params) {
 void register_study(Registry& registry) {
   registry.add(IntegratorFactory{
       "study",
-      "One channel of a layer as a colour, with a legend below the preview; black where nothing is hit.",
+      "One channel of a layer as a colour, with a legend below the preview; black where nothing is hit, "
+      "unless "
+      "the layer tells of that too.",
       {{"layer", "name, or object {\"type\", ...}", "\"normal_error\"", "see rondure list"},
        {"channel", "name", "the layer's first", "which of its numbers: what its channel's name ends in"},
-       {"range", "two numbers, low < high", "[0, 1]",
-        "what the ends of the colours stand for; beyond them they stay"},
-       {"scale", "\"linear\" or \"log\"", "\"linear\"", "how the colours are spread over the range"},
+       {"range", "two numbers, low < high", "the channel's own, mostly [0, 1]",
+        "what the ends of the colours stand for; beyond them they stay; [0, 1] where only \"scale\" is "
+        "given"},
+       {"scale", "\"linear\" or \"log\"", "the channel's own, mostly \"linear\"",
+        "how the colours are spread over the range; \"linear\" where only \"range\" is given"},
        {"colors", "\"viridis\", \"diverging\" or \"grey\"", "\"viridis\"",
         "dark blue to yellow, blue over white to red, black to white"}},
       create});

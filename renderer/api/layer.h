@@ -18,6 +18,12 @@ class World;
 // the largest float.
 using LayerFunction = std::function<void(const World&, const Ray&, const Hit&, double* values)>;
 
+// What a picture of one channel spreads its colours over, where the scene does not say.
+struct LayerScale {
+  double low = 0.0, high = 1.0;
+  bool logarithmic = false;
+};
+
 struct LayerFactory {
   std::string name;  // the scene's "type"
   std::string summary;
@@ -26,6 +32,8 @@ struct LayerFactory {
   std::vector<ParameterDoc> parameters;
   std::function<LayerFunction(Params&)> create;
   std::vector<std::string> units{};  // of the channels; fewer where the rest have none
+  std::vector<LayerScale> scales{};  // likewise
+  bool misses = false;               // it has something to show of rays that meet nothing
 };
 
 // A layer as a scene asks for it.
@@ -34,6 +42,8 @@ struct FilmLayer {
   std::vector<std::string> channels;  // whole names: "NormalError.deg"
   LayerFunction function;
   std::vector<std::string> units{};  // of the channels, "" for none
+  std::vector<LayerScale> scales{};  // of the channels
+  bool misses = false;
 };
 
 }  // namespace rondure

@@ -22,6 +22,7 @@
 #include "renderer/film/legend_strip.h"
 #include "renderer/film/preview.h"
 #include "renderer/film/resume_state.h"
+#include "renderer/layers/certificate.h"
 #include "renderer/render/interrupt.h"
 #include "renderer/render/progress.h"
 #include "renderer/render/resume_key.h"
@@ -158,6 +159,9 @@ void run_render(const Registry& registry, RenderCommand options) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   note(options, fmt::format("{}: {} x {}, {} spp, {}", options.output, film.window().width(),
                             film.window().height(), film.samples, duration_text(elapsed.count())));
+  if (const auto unresolved = unresolved_pixels(film, scene.film.layers))
+    note(options, fmt::format("{}: {} of {} pixels without a certificate", options.output, *unresolved,
+                              film.geometry.size()));
   if (film.rejected > 0) {
     throw std::runtime_error(
         fmt::format("{} of the picture's samples were negative, not finite or too large and count as black; "

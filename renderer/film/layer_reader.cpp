@@ -51,6 +51,9 @@ FilmLayer read_layer(const Value& value, const Params& parent, const std::string
   layer.function = factory->create(params);
   layer.units = factory->units;
   layer.units.resize(layer.channels.size());
+  layer.scales = factory->scales;
+  layer.scales.resize(layer.channels.size());
+  layer.misses = factory->misses;
   params.finish();
   return layer;
 }

@@ -6,6 +6,7 @@
 
 namespace rondure {
 
+void register_certificate_layer(Registry& registry);
 void register_curvature_layer(Registry& registry);
 void register_jacobian_layer(Registry& registry);
 void register_line_layers(Registry& registry);

@@ -29,6 +29,7 @@ void register_builtins(Registry& registry) {
       register_normals,
       register_path,
       register_study,
+      register_certificate_layer,
       register_curvature_layer,
       register_jacobian_layer,
       register_line_layers,

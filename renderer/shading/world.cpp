@@ -4,9 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <mutex>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "renderer/intersect/certificate.h"
 #include "renderer/shading/environment.h"
 #include "renderer/shading/surface_light.h"
 
@@ -83,13 +86,19 @@ struct World::Lights {
   }
 };
 
+struct World::Proofs {
+  std::once_flag once;
+  std::optional<Certifier> certifier;
+};
+
 World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<Light> lights,
              std::vector<int> material_of_surface, std::vector<NormalEstimator> normals_of_surface)
     : tracer_(&tracer),
       materials_(std::move(materials)),
       material_of_surface_(std::move(material_of_surface)),
       estimators_(std::move(normals_of_surface)),
-      lights_(std::make_unique<Lights>()) {
+      lights_(std::make_unique<Lights>()),
+      proofs_(std::make_unique<Proofs>()) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = lights[i];
     if (const auto* constant = std::get_if<ConstantLight>(&light)) lights_->constant += constant->radiance;
@@ -117,6 +126,11 @@ World::World(const Tracer& tracer, std::vector<Material> materials, std::vector<
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
+
+const Certifier& World::certifier() const {
+  std::call_once(proofs_->once, [&] { proofs_->certifier.emplace(*tracer_); });
+  return *proofs_->certifier;
+}
 
 Material World::material(const Hit& hit) const {
   const auto surface = static_cast<std::size_t>(hit.surface);

@@ -30,6 +30,8 @@ struct LightError : std::runtime_error {
   std::size_t light;
 };
 
+class Certifier;
+
 class World {
  public:
   // `material_of_surface[i]` is the index of the material of the tracer's surface i. The tracer must outlive
@@ -42,6 +44,8 @@ class World {
   World& operator=(World&&) noexcept;
 
   const Tracer& tracer() const { return *tracer_; }
+  // What proves its hits; made when it is first asked for, by any thread.
+  const Certifier& certifier() const;
   // The material at the hit: that of its surface, coloured by curvature if it asks for that, or of a
   // parameter line drawn there. Ask once a hit.
   Material material(const Hit& hit) const;
@@ -72,6 +76,7 @@ class World {
 
  private:
   struct Lights;
+  struct Proofs;
 
   const Tracer* tracer_;
   std::vector<Material> materials_;
@@ -80,6 +85,7 @@ class World {
   std::vector<NormalEstimator> estimators_;
   std::vector<NormalField> fields_;
   std::unique_ptr<Lights> lights_;
+  std::unique_ptr<Proofs> proofs_;
 };
 
 // The ray that leaves a hit, with its own root at t = 0 left out.
