@@ -4,6 +4,7 @@
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/certified_ellipsoid.h"
+#include "renderer/intersect/certified_point.h"
 #include "renderer/intersect/certified_search.h"
 #include "renderer/intersect/slab.h"
 
@@ -123,11 +124,10 @@ class Attempt {
     if (!root.exists) return false;
     at_ = t_of(local, root.h / length2(ray));
     out_.exists = root.inside, out_.unique = true, out_.isolation = root.isolation;
-    // How far the parameters' error moves the point: twice the derivatives there, which hardly change.
-    const SurfaceJet jet = surface_jet(net, hit_.u, hit_.v);
     const double off =
         std::max({std::fabs(hit_.u - root.ball.at.x), std::fabs(hit_.v - root.ball.at.y)}) + root.ball.radius;
-    point_radius_ = 2.0 * off * (glm::length(jet.du) + glm::length(jet.dv));
+    point_radius_ = point_bound(net, {hit_.u, hit_.v}, off) +
+                    glm::length(hit_.point - surface.origin - net_point(net, hit_.u, hit_.v));
     return true;
   }
   double point_radius_ = 0.0;
@@ -166,7 +166,7 @@ class Attempt {
     const Enclosure<T> from_h = Enclosure<T>{from, from} * l2, until_h = Enclosure<T>{until, until} * l2;
     for (std::size_t j = 0; j < surface.patches.size(); ++j) {
       if (bounds_[k].patches[j] && !meets_box(local, inverse, *bounds_[k].patches[j])) continue;
-      EarlierSearch<T> search(from_h.low, until_h.high, limit_);
+      EarlierSearch<T> search(from_h.low, until_h.high, limit_, std::is_same_v<T, double>);
       const Earlier<T>& earlier = search.run(certified_piece(surface.patches[j], ray));
       out_.pieces += earlier.pieces;
       if (!earlier.decided || earlier.possible) return false;
@@ -179,17 +179,15 @@ class Attempt {
   void measure() {
     const T t = static_cast<T>(hit_.t);
     out_.t_error = static_cast<double>(std::max(t - at_.low, at_.high - t)) * (1.0 + 0x1p-50) + 0x1p-1074;
-    // The point is the surface's at the hit's parameters, rounded there and again in the world.
+    // Beside what moved the point: the rounding of its place in the world.
     const Surface& surface = traced_[static_cast<std::size_t>(hit_.surface)].surface;
     if (surface.ellipsoid) {
       point_radius_ = out_.t_error * glm::length(ray_.direction) * (1.0 + 0x1p-50);
-      const dvec3 along = hit_.point - ray_.origin;
       // Of a point beside the ray: its distance from the exact one is that from the ray's at t, and t's.
       LocalRay local;
       make_local_ray(ray_.origin, ray_.direction, surface.origin, local);
       const dvec3 here = local.base + (hit_.t / local.scale - local.slide) * local.direction;
-      point_radius_ +=
-          glm::length(hit_.point - surface.origin - here) + 0x1p-50 * (largest(along) * 0.0 + largest(here));
+      point_radius_ += glm::length(hit_.point - surface.origin - here) + 0x1p-50 * largest(here);
     }
     out_.point_error = point_radius_ + 0x1p-50 * (largest(hit_.point) + largest(surface.origin) +
                                                   largest(hit_.point - surface.origin));

@@ -160,11 +160,13 @@ struct Earlier {
   long pieces = 0;
 };
 
-// Looks for roots with s in [from, until).
+// Looks for roots with s in [from, until). `tight`: until what it says of later ones is close to `until`,
+// too.
 template <class T>
 class EarlierSearch {
  public:
-  EarlierSearch(T from, T until, long limit) : from_(from), until_(until), limit_(limit) {}
+  EarlierSearch(T from, T until, long limit, bool tight)
+      : from_(from), until_(until), limit_(limit), tight_(tight) {}
 
   const Earlier<T>& run(const CertifiedPiece<T>& whole) {
     std::vector<CertifiedPiece<T>> stack{whole};
@@ -186,6 +188,7 @@ class EarlierSearch {
  private:
   const T from_, until_;
   const long limit_;
+  const bool tight_;
   Earlier<T> out_;
 
   bool settled(const CertifiedPiece<T>& piece) {
@@ -200,12 +203,14 @@ class EarlierSearch {
         if (ball.radius < 0x1p-10) {
           const Enclosure<T> at = range_of_h(piece, ball);
           if (at.high < from_) return true;
-          if (at.high >= until_) {
+          // Beside the border of a large piece a ball may be large, and say little of t: smaller pieces say
+          // more, or that no root is there.
+          if (at.high >= until_ && (!tight_ || small(piece) || near_until(at.low))) {
             out_.least = std::min(out_.least, at.low);
             return true;
           }
           // A root that is earlier, if its ball is in the piece; else its existence is the border's matter.
-          if (piece.outside(ball.at) < -ball.radius || ball.radius < 0x1p-30) {
+          if (at.high < until_ && (piece.outside(ball.at) < -ball.radius || ball.radius < 0x1p-30)) {
             out_.possible = true;
             return true;
           }
@@ -220,6 +225,12 @@ class EarlierSearch {
     else
       out_.decided = false;
     return true;
+  }
+
+  bool near_until(T s) const { return until_ - s <= T(0x1p-40) * (std::abs(until_) + 1); }
+  static bool small(const CertifiedPiece<T>& piece) {
+    return std::max({std::fabs(piece.along_a.x), std::fabs(piece.along_a.y), std::fabs(piece.along_b.x),
+                     std::fabs(piece.along_b.y)}) < 0x1p-12;
   }
 
   static bool keeps_sign(const CertifiedPiece<T>& piece) {
