@@ -281,9 +281,10 @@ Curvature curvature(const Net& net, double u, double v) {
   const FirstOrder<dvec4> first = net_first(net, u, v);
   const Tangents t = tangents(first);
   const double scale = spread(net, t.point);
-  constexpr double near_singular = 1e-4, known = 1e-11;
-  if (!(glm::length(relative_cross(t, scale)) > near_singular) &&
-      !(cross_error(net, u, v, first, t) <= known)) {
+  const double size = glm::length(relative_cross(t, scale));
+  // Below `vanishing` the square by which all is divided may be zero, in scenes of the smallest size.
+  constexpr double near_singular = 1e-4, known = 1e-11, vanishing = 1e-30;
+  if (!(size > vanishing) || (!(size > near_singular) && !(cross_error(net, u, v, first, t) <= known))) {
     constexpr double step = 1e-4;
     if (std::holds_alternative<TensorNet>(net)) {
       u = std::clamp(u, step, 1.0 - step);

@@ -107,6 +107,8 @@ TEST_CASE("curvature of ellipsoids", "[bezier]") {
     // At a corner the value is taken 1e-4 further inside, where an ellipsoid's curvature differs by as much
     // times the ratio of its axes, here up to 4 in the fourth power; rounding over an area of 1e-8 adds 1e-7.
     for (const double d : {0.0, 1e-12, 1e-6}) check(d, 1.0 - d, 1e-4, corners);
+    // So near that the area's square is not in a double's range.
+    for (const double d : {1e-300, 1e-200, 1e-80, 1e-40}) check(d, d, 1e-4, corners);
   }
   INFO(regular.text());
   INFO(corners.text());
