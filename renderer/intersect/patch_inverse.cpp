@@ -118,10 +118,11 @@ bool fits(const PatchInverse& inverse, const Net& net) {
 }
 
 // Brings the coefficients to size 1, and tells what is usual in the patch: the inverse derivatives in its
-// middle.
-void normalise(PatchInverse& inverse) {
-  double most = 0.0;
-  for (const double c : inverse.coefficients) most = std::max(most, std::fabs(c));
+// middle. False when the coefficients are zero or no numbers.
+bool normalise(PatchInverse& inverse) {
+  double most = 0.0, sum = 0.0;
+  for (const double c : inverse.coefficients) most = std::max(most, std::fabs(c)), sum += std::fabs(c);
+  if (!(most > 0.0) || !std::isfinite(sum)) return false;
   const double scale = std::exp2(-std::ilogb(most));
   for (double& c : inverse.coefficients) c *= scale;
   // Of 2 a at the point (0, 0, -1), which is the middle's to rounding or near.
@@ -133,6 +134,7 @@ void normalise(PatchInverse& inverse) {
   const double r = 1.0 / (fu.x * fv.y - fu.y * fv.x);
   constexpr double steeper = 16.0;
   inverse.steepest2 = steeper * steeper * r * r * (glm::dot(fu, fu) + glm::dot(fv, fv));
+  return true;
 }
 
 int degree_of(const TensorPolynomial<lvec4>& p) { return std::max(p.m, p.n); }
@@ -153,8 +155,7 @@ std::optional<PatchInverse> patch_inverse(const Net& net) {
           });
         },
         *preimage);
-    if (inverse) normalise(*inverse);
-    if (inverse && fits(*inverse, net)) return inverse;
+    if (inverse && normalise(*inverse) && fits(*inverse, net)) return inverse;
   }
   // The projection itself: (x + i y) / (w - z).
   const auto itself = [](const lvec4& x) { return Quotient{Complex(x.x, x.y), Complex(x.w - x.z)}; };
@@ -169,8 +170,7 @@ std::optional<PatchInverse> patch_inverse(const Net& net) {
     if (degree_of(p) <= largest_degree)
       inverse = in_powers(p, middle, degree_of(p) <= 2 ? 2 : largest_degree, itself);
   }
-  if (inverse) normalise(*inverse);
-  if (!inverse || !fits(*inverse, net)) return std::nullopt;
+  if (!inverse || !normalise(*inverse) || !fits(*inverse, net)) return std::nullopt;
   return inverse;
 }
 
