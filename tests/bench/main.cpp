@@ -1,6 +1,6 @@
 // Speed against what people settle for, in one table: every row takes its turn in every round, and is told as
-// a ratio to Embree's own sphere in the same round. Then Newton steps, radial forms, and how fast scenes are
-// built.
+// a ratio to Embree's own sphere in the same round. Then Newton steps, radial forms, what proofs cost, and
+// how fast scenes are built.
 //
 //   rondure_bench [ROUNDS] [--json FILE]
 //   rondure_bench --count ROW        traces that row's incoherent rays once, for
@@ -14,6 +14,7 @@
 
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
+#include "tests/bench/certificates.h"
 #include "tests/bench/embree_baselines.h"
 #include "tests/bench/newton.h"
 #include "tests/bench/radial.h"
@@ -193,6 +194,7 @@ int run(int argc, char** argv) {
   print_steps(shapes);
   print_radial(rounds);
   print_newton(rounds);
+  print_certificates(rounds);
   print_scale(rounds);
   return 0;
 }
