@@ -93,9 +93,9 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
        "s.json:1:83: \"sphere\" has no patches, and so no colours of curvature; take a tiling, such as "
        "\"sphere_tiling\""},
       {"{ \"integrator\": {\"type\": \"study\", \"range\": [-1e308, 1e308]} }",
-       "s.json:1:45: \"range\" is too wide for a double's exponent"},
+       "s.json:1:44: \"range\" is too wide for a double's exponent"},
       {"{ \"integrator\": {\"type\": \"study\", \"scale\": \"log\", \"range\": [1e-300, 1e300]} }",
-       "s.json:1:61: \"range\" is too wide for a double's exponent"},
+       "s.json:1:60: \"range\" is too wide for a double's exponent"},
       {"{ \"materials\": {\"a\": {\"curvature\": {\"range\": [1, 1]}}} }",
        "s.json:1:46: \"range\" must be [low, high] with low < high, found [1, 1]"},
       {"{ \"objects\": [{\"type\":\"sphere\"}], \"lights\": [{\"type\":\"spot\"}] }",
