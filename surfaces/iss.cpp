@@ -74,7 +74,8 @@ void register_iss(Registry& registry) {
       "inverse spherical surfaces, single-valued over spherical triangles (Casciola and Morigi 2004)",
       {{"vertices", "array of [x, y, z]", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
         "directions times moduli: corners of planar projection domains, shared by patches"},
-       {"moduli", "array of numbers in [0.0001, 10000]", "the lengths of the vertices", "one for each vertex"},
+       {"moduli", "array of numbers in [0.0001, 10000]", "the lengths of the vertices",
+        "one for each vertex"},
        {"degree", "integer 1 to 24", "3", "of every patch but the sphere's"},
        {"patches",
         "array of {\"triangle\": [a, b, c]}, {\"u\": {\"ijk\": [x, y, z], ...}}, {\"sphere\": [a, b, c]} or "

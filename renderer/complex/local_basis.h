@@ -17,10 +17,10 @@ std::vector<std::vector<std::vector<int>>> support_stages(const SurfaceComplex& 
 SplineSpace local_spline_space(const SurfaceComplex& complex, int n);
 
 // The same space on any complex, to rounding, with a basis that is local as far as it can be and well
-// conditioned: of each region's functions, found as above and orthonormal, those directions are taken that lie
-// outside the span of what was found before by 1/10 of their length or more. What regions of up to 320
-// coefficients do not hold, functions orthogonal to all of these make up for; they live everywhere. Function k
-// is 1 at its unknown free[k]. `gap` is the least fall of pivots behind any of the ranks. Throws
+// conditioned: of each region's functions, found as above and orthonormal, those directions are taken that
+// lie outside the span of what was found before by 1/10 of their length or more. What regions of up to 320
+// coefficients do not hold, functions orthogonal to all of these make up for; they live everywhere. Function
+// k is 1 at its unknown free[k]. `gap` is the least fall of pivots behind any of the ranks. Throws
 // std::runtime_error where the rank of all conditions falls by less than 10^3.
 SplineSpace rounded_local_space(const SurfaceComplex& complex, int n);
 

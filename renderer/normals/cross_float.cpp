@@ -1,6 +1,6 @@
+#include "renderer/bezier/tangents_in.h"
 #include "renderer/normals/direction.h"
 #include "renderer/normals/estimator.h"
-#include "renderer/bezier/tangents_in.h"
 
 namespace rondure {
 

@@ -146,7 +146,8 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
        "\"shift\", "
        "\"hodograph\", \"analytic\", found \"crossfloat\"; did you mean \"cross_float\"?"},
       {"{\"type\": \"sphere\", \"solver\": \"exact\"}",
-       "s.json:1:44: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", \"radial\", \"quadric\", found \"exact\""},
+       "s.json:1:44: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", \"radial\", \"quadric\", "
+       "found \"exact\""},
       {"{\"type\": \"sphere_cap\", \"z_max\": 1}",
        "s.json:1:47: \"z_max\" must be a number in (-1, 0.999999999], found 1"},
       {"{\"type\": \"sphere_tiling\", \"topology\": \"cubes\"}",

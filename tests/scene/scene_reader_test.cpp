@@ -200,7 +200,8 @@ TEST_CASE("overrides that cannot be applied say which", "[scene]") {
        "  1 | {\"filter\":\"box\",\"filter\":\"tent\"}\n"
        "    |                 ^"},
       {"/objects/0/solver=exact",
-       "s.json: objects[0]: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", \"radial\", \"quadric\", found \"exact\" "
+       "s.json: objects[0]: \"solver\" must be one of \"auto\", \"newton\", \"clipping\", \"radial\", "
+       "\"quadric\", found \"exact\" "
        "(set on the "
        "command line)"},
       {"/objects/0/colour=3",
