@@ -6,6 +6,7 @@
 // and if the ball lies in the piece, there is one: p - Y F maps the ball into itself (Krawczyk 1969).
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
@@ -230,7 +231,7 @@ class EarlierSearch {
   bool near_until(T s) const { return until_ - s <= T(0x1p-40) * (std::abs(until_) + 1); }
   static bool small(const CertifiedPiece<T>& piece) {
     return std::max({std::fabs(piece.along_a.x), std::fabs(piece.along_a.y), std::fabs(piece.along_b.x),
-                     std::fabs(piece.along_b.y)}) < 0x1p-12;
+                     std::fabs(piece.along_b.y)}) < 0x1p-24;
   }
 
   static bool keeps_sign(const CertifiedPiece<T>& piece) {
@@ -260,20 +261,22 @@ class EarlierSearch {
   }
 };
 
-// The piece about a place of the patch, `reach` to each side (a triangle with that inscribed); it may lie
-// partly outside.
+// The piece about a place of the patch, `reach` to each side (a triangle with the greater inscribed); it may
+// lie partly outside.
 template <class T>
-CertifiedPiece<T> piece_about(const CertifiedPiece<T>& whole, dvec2 at, double reach) {
+CertifiedPiece<T> piece_about(const CertifiedPiece<T>& whole, dvec2 at, dvec2 reaches) {
   CertifiedPiece<T> out = whole;
-  out.origin = at - dvec2(reach);
+  const double reach = std::max(reaches.x, reaches.y);
+  out.origin = at - (whole.shape.triangle ? dvec2(reach) : reaches);
   if (whole.shape.triangle) {
     out.along_a = dvec2(4.0 * reach, 0.0), out.along_b = dvec2(0.0, 4.0 * reach);
     const dvec2 corners[3] = {out.origin + out.along_a, out.origin + out.along_b, out.origin};
     triangle_restrict(whole.c.data(), whole.shape.n, corners, out.c.data());
   } else {
-    out.along_a = dvec2(2.0 * reach, 0.0), out.along_b = dvec2(0.0, 2.0 * reach);
-    tensor_restrict(whole.c.data(), whole.shape.m, whole.shape.n, out.origin.x, out.origin.x + 2.0 * reach,
-                    out.origin.y, out.origin.y + 2.0 * reach, out.c.data());
+    out.along_a = dvec2(2.0 * reaches.x, 0.0), out.along_b = dvec2(0.0, 2.0 * reaches.y);
+    tensor_restrict(whole.c.data(), whole.shape.m, whole.shape.n, out.origin.x,
+                    out.origin.x + 2.0 * reaches.x, out.origin.y, out.origin.y + 2.0 * reaches.y,
+                    out.c.data());
   }
   // Two or three passes of affine combinations, by factors below 1 + 8 reach in all, at parameters that are
   // off by rounding themselves.
@@ -295,23 +298,45 @@ struct Existence {
 };
 
 template <class T>
-Existence<T> prove_root(const CertifiedPiece<T>& whole, dvec2 at) {
+Existence<T> prove_root_in(const CertifiedPiece<T>& whole, dvec2 at, dvec2 reach) {
   Existence<T> out;
-  for (double reach = 0x1p-6; reach > 0x1p-48; reach *= 0.25) {
-    const CertifiedPiece<T> piece = piece_about(whole, at, reach);
-    const Preconditioned<T> y(piece);
-    if (!y || !(y.distance_from_identity() < T(0.5))) continue;
-    const Ball ball = y.locate();
-    if (!(piece.outside(ball.at) < -ball.radius)) continue;
-    out.exists = true;
-    out.isolation = reach;
-    out.h = range_of_h(piece, ball);
-    out.ball.at = piece.to_patch(ball.at);
-    out.ball.radius = ball.radius * std::max(piece.along_a.x, piece.along_b.y) + 0x1p-50;
-    out.inside = whole.outside(out.ball.at) < -2.0 * out.ball.radius;
-    return out;
-  }
+  const CertifiedPiece<T> piece = piece_about(whole, at, reach);
+  const Preconditioned<T> y(piece);
+  if (!y || !(y.distance_from_identity() < T(0.5))) return out;
+  const Ball ball = y.locate();
+  if (!(piece.outside(ball.at) < -ball.radius)) return out;
+  out.exists = true;
+  out.isolation = std::min(reach.x, reach.y);
+  out.h = range_of_h(piece, ball);
+  out.ball.at = piece.to_patch(ball.at);
+  out.ball.radius = ball.radius * std::max(piece.along_a.x, piece.along_b.y) + 0x1p-50;
+  out.inside = whole.outside(out.ball.at) < -2.0 * out.ball.radius;
   return out;
+}
+
+template <class T>
+Existence<T> prove_root(const CertifiedPiece<T>& whole, dvec2 at) {
+  for (double reach = 0x1p-6; reach > 0x1p-48; reach *= 0.25)
+    if (const Existence<T> out = prove_root_in(whole, at, dvec2(reach)); out.exists) return out;
+  // Beside a side that is a point, where the parameter along it is hardly told apart: wide along the side,
+  // and no nearer to it than half the way. In double precision little would come of that.
+  if (whole.shape.triangle || std::is_same_v<T, double>) return {};
+  const dvec2 to_side = glm::min(at, dvec2(1.0) - at);
+  for (const int across : {0, 1}) {
+    if (!(to_side[across] > 0.0)) continue;
+    for (double reach = 0x1p-4; reach > 0x1p-30; reach *= 0.25)
+      for (const double part : {0.5, 0.125}) {
+        dvec2 reaches(reach);
+        reaches[across] = std::min(reach, part * to_side[across]);
+        Existence<T> out = prove_root_in(whole, at, reaches);
+        if (!out.exists) continue;
+        // The piece that it is in, if not the ball, ends before that side.
+        const dvec2 off = glm::abs(out.ball.at - at);
+        out.inside = out.inside || (reach < to_side[1 - across] && off[across] <= reaches[across]);
+        return out;
+      }
+  }
+  return {};
 }
 
 }  // namespace rondure
