@@ -330,9 +330,8 @@ Existence<T> prove_root(const CertifiedPiece<T>& whole, dvec2 at) {
         reaches[across] = std::min(reach, part * to_side[across]);
         Existence<T> out = prove_root_in(whole, at, reaches);
         if (!out.exists) continue;
-        // The piece that it is in, if not the ball, ends before that side.
-        const dvec2 off = glm::abs(out.ball.at - at);
-        out.inside = out.inside || (reach < to_side[1 - across] && off[across] <= reaches[across]);
+        // The piece that it is in, if not the ball, is all inside.
+        out.inside = out.inside || reach < to_side[1 - across];
         return out;
       }
   }
