@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "renderer/continuity/disjoint_sets.h"
 
 namespace rondure {
 namespace {
@@ -27,25 +28,6 @@ std::vector<std::size_t> edge_points(const Net& net, int edge) {
   return out;
 }
 
-// Which points are one: each has a parent, the first of them itself.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t first(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = first(a), b = first(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 }  // namespace
 
 void weld(const SurfaceComplex& complex, std::vector<Net>& nets) {
@@ -58,7 +40,7 @@ void weld(const SurfaceComplex& complex, std::vector<Net>& nets) {
   double size = 0.0;
   for (const dvec4& p : points)
     size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z), std::fabs(p.w)});
-  Groups groups(points.size());
+  DisjointSets groups(points.size());
   for (const EdgeJoin& join : complex.joins) {
     const auto a = static_cast<std::size_t>(join.p.polygon), b = static_cast<std::size_t>(join.q.polygon);
     std::vector<std::size_t> from = edge_points(nets[a], join.p.edge), to = edge_points(nets[b], join.q.edge);
@@ -72,7 +54,7 @@ void weld(const SurfaceComplex& complex, std::vector<Net>& nets) {
       const dvec4 d = points[from[k]] - points[to[k]];
       for (int c = 0; c < 4; ++c) same = same && std::fabs(d[c]) <= 0x1p-44 * size;
     }
-    for (std::size_t k = 0; same && k < from.size(); ++k) groups.join(from[k], to[k]);
+    for (std::size_t k = 0; same && k < from.size(); ++k) groups.unite(from[k], to[k]);
   }
   for (std::size_t n = 0; n < nets.size(); ++n) {
     std::vector<dvec4>& net = points_of(nets[n]);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/bezier/box.h"
+#include "renderer/continuity/disjoint_sets.h"
 #include "renderer/continuity/side_foot.h"
 
 namespace rondure {
@@ -123,32 +124,6 @@ dvec2 side_point(const Net& net, int side, double t) {
 
 namespace {
 
-// Numbers for vertices, the same for those that are united.
-class Union {
- public:
-  explicit Union(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void unite(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
-  std::vector<int> numbers() {
-    std::vector<int> of_root(parent_.size(), -1), out;
-    int count = 0;
-    for (std::size_t k = 0; k < parent_.size(); ++k) {
-      int& number = of_root[root(k)];
-      if (number < 0) number = count++;
-      out.push_back(number);
-    }
-    return out;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 // Corners that the joins glue, by their curve; sides that are a point glue theirs too.
 std::vector<int> glued(const std::vector<Curve>& curves, const std::vector<SideJoin>& joins,
                        const std::vector<std::size_t>& first, const std::vector<bool>& collapsed) {
@@ -156,7 +131,7 @@ std::vector<int> glued(const std::vector<Curve>& curves, const std::vector<SideJ
     const Curve& c = curves[k];
     return first[index(c.where.patch)] + index((c.where.side + 1) % side_count(*c.net));
   };
-  Union vertices(curves.size());
+  DisjointSets vertices(curves.size());
   for (const SideJoin& j : joins) {
     const std::size_t a = first[index(j.patch)] + index(j.side),
                       b = first[index(j.other)] + index(j.other_side);

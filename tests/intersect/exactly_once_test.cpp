@@ -65,7 +65,7 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   tally.exhausted += gave_up;
   ++tally.rays[c];
   tally.hits[c] += static_cast<long>(hits.size());
-  const bool same = index % 9 != 0 || agree(tracer, aimed.ray, hits);
+  const bool same = index % 8 != 0 || agree(tracer, aimed.ray, hits);
   bool odd = aimed.parity >= 0 && hits.size() % 2 != static_cast<std::size_t>(aimed.parity);
   bool known = false;
   if (model.sphere && which != RayClass::from_surface) {
@@ -79,7 +79,7 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
           (exact.clearance < 0.0 ? static_cast<std::size_t>((exact.t[0] >= 0.0) + (exact.t[1] >= 0.0)) : 0);
     tally.in_band[c] += odd && known;
   }
-  const bool judged = (odd && !known) || gave_up || index % sample == sample - 1;
+  const bool judged = (odd && !known) || gave_up || index % sample == 0;
   if (!judged && same) return;
   const double band = model.band * model.radius;
   // A ray that is told to start on the surface is judged beyond its start alone.
