@@ -145,7 +145,9 @@ class Attempt {
   bool clears(std::size_t k, T until_t, T& least_t) {
     const Surface& surface = traced_[k].surface;
     LocalRay local;
-    if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local)) return true;
+    // Where the ray is a ray, but too far away to be followed, nothing is known.
+    if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local))
+      return !is_finite(ray_.origin) || !is_finite(ray_.direction) || ray_.direction == dvec3(0.0);
     const dvec3 inverse = 1.0 / local.direction;
     if (bounds_[k].whole && !meets_box(local, inverse, *bounds_[k].whole)) return true;
     const CertifiedRay<T> ray(ray_.origin, surface.origin, local);
@@ -170,8 +172,10 @@ class Attempt {
       const Earlier<T>& earlier = search.run(certified_piece(surface.patches[j], ray));
       out_.pieces += earlier.pieces;
       if (!earlier.decided || earlier.possible) return false;
-      if (earlier.least < std::numeric_limits<T>::infinity())
-        least_t = std::min(least_t, t_of(local, Enclosure<T>{earlier.least, earlier.least} / l2).low);
+      if (earlier.least == std::numeric_limits<T>::infinity()) continue;
+      // Of a miss, a root that may be at t_max is a root that may be.
+      if (!hit_ && !(earlier.least > until_h.high)) return false;
+      least_t = std::min(least_t, t_of(local, Enclosure<T>{earlier.least, earlier.least} / l2).low);
     }
     return true;
   }

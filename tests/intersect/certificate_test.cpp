@@ -104,4 +104,44 @@ TEST_CASE("What is not so is not certified", "[certificate]") {
   CHECK(rays > 50);
 }
 
+TEST_CASE("No miss is certified before a root just short of the ray's end", "[certificate]") {
+  const Surface surface = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  const Tracer tracer({{surface, Solver::newton}});
+  const Certifier certifier(tracer);
+  std::mt19937_64 random(11);
+  long ended = 0, missed = 0, misled = 0, proven = 0;
+  for (int k = 0; k < 400; ++k) {
+    Ray ray{3.0 * random_direction(random), {}};
+    ray.direction = 0.6 * random_direction(random) - ray.origin;
+    const Hit hit = tracer.closest(ray);
+    if (!hit) continue;
+    // An ulp before what the solver says: half of the roots are there, as rounding has it.
+    ray.t_max = std::nextafter(hit.t, 0.0);
+    ++ended;
+    double first = INFINITY;
+    for (const oracle::Root& root : oracle::meet(surface, ray).roots)
+      if (root.t >= 0.0 && root.outside <= 0.0) first = std::min(first, root.t);
+    // The oracle's t is rounded; where that is below t_max, so is the root.
+    const Hit none = tracer.closest(ray);
+    missed += !none && first < ray.t_max;
+    misled += !none && first < ray.t_max && certifier.certify(ray, none);
+    ray.t_max = (1.0 - 1e-9) * hit.t;
+    proven += static_cast<bool>(certifier.certify(ray, tracer.closest(ray)));
+  }
+  INFO(ended << " rays ended, " << missed << " a root too early, " << misled << " of these certified; "
+             << proven << " proven that end well before");
+  CHECK(misled == 0);
+  CHECK(missed > 0);
+  CHECK(proven == ended);
+}
+
+TEST_CASE("No miss is certified of a ray from too far away to be followed", "[certificate]") {
+  for (const char* type : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere"})"}) {
+    const Tracer tracer({{build_family(type), Solver::newton}});
+    const Ray towards{dvec3(1e300, 0.0, 0.0), dvec3(-1.0, 0.0, 0.0)};
+    const Hit hit = tracer.closest(towards);
+    CHECK((hit || !Certifier(tracer).certify(towards, hit)));
+  }
+}
+
 }  // namespace rondure
