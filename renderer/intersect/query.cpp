@@ -198,7 +198,10 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
 
 bool nearer(const Hit& a, const Hit& b) {
   if (a.t != b.t) return a.t < b.t;
-  return a.surface != b.surface ? a.surface < b.surface : a.patch < b.patch;
+  if (a.surface != b.surface) return a.surface < b.surface;
+  if (a.patch != b.patch) return a.patch < b.patch;
+  // Where two leaves of one patch meet, both find the root, a last bit apart.
+  return a.u != b.u ? a.u < b.u : a.v < b.v;
 }
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {

@@ -58,6 +58,7 @@ struct Query {
   std::vector<int>* signs = nullptr;
 };
 
+// Total, so that which hit is reported does not depend on the order in which leaves are visited.
 bool nearer(const Hit& a, const Hit& b);
 
 // Meets one leaf (an analytic surface has one, 0). `far` is lowered where a hit narrows the search. True when

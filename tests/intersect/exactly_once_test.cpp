@@ -47,12 +47,33 @@ dvec3 scaled(const dvec3& v, int exponent) {
   return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
+bool same(const Hit& a, const Hit& b) {
+  return a.t == b.t && a.patch == b.patch && a.u == b.u && a.v == b.v && a.point == b.point;
+}
+
 // Whether `closest` and `occluded` say what `all` says.
 bool agree(const Tracer& tracer, const Ray& ray, const std::vector<Hit>& all) {
   const Hit first = tracer.closest(ray);
   if (tracer.occluded(ray) != static_cast<bool>(first) || static_cast<bool>(first) == all.empty())
     return false;
-  return all.empty() || (first.t == all.front().t && first.patch == all.front().patch);
+  return all.empty() || same(first, all.front());
+}
+
+// Whether a ray that begins or ends exactly at its first hit has that hit, and one that ends before has none.
+bool ends_agree(const Tracer& tracer, const Ray& ray, const std::vector<Hit>& all) {
+  if (all.empty() || ray.start.surface >= 0) return true;
+  const double t = all.front().t;
+  const auto closest = [&](double t_min, double t_max, Hit& hit) {
+    Ray part = ray;
+    part.t_min = t_min, part.t_max = t_max;
+    hit = tracer.closest(part);
+    return tracer.occluded(part) == static_cast<bool>(hit);
+  };
+  Hit hit;
+  if (!closest(t, INFINITY, hit) || !same(hit, all.front())) return false;
+  if (!closest(0.0, t, hit) || !same(hit, all.front())) return false;
+  if (t > 0.0 && (!closest(0.0, std::nextafter(t, 0.0), hit) || hit)) return false;
+  return closest(std::nextafter(t, INFINITY), INFINITY, hit) && (!hit || hit.t > t);
 }
 
 void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long index,
@@ -65,7 +86,8 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   tally.exhausted += gave_up;
   ++tally.rays[c];
   tally.hits[c] += static_cast<long>(hits.size());
-  const bool same = index % 8 != 0 || agree(tracer, aimed.ray, hits);
+  const bool alike = (index % 8 != 0 || agree(tracer, aimed.ray, hits)) &&
+                     (index % 64 != 0 || ends_agree(tracer, aimed.ray, hits));
   bool odd = aimed.parity >= 0 && hits.size() % 2 != static_cast<std::size_t>(aimed.parity);
   bool known = false;
   if (model.sphere && which != RayClass::from_surface) {
@@ -80,7 +102,7 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
     tally.in_band[c] += odd && known;
   }
   const bool judged = (odd && !known) || gave_up || index % sample == 0;
-  if (!judged && same) return;
+  if (!judged && alike) return;
   const double band = model.band * model.radius;
   // A ray that is told to start on the surface is judged beyond its start alone.
   Ray ray = aimed.ray;
@@ -93,11 +115,11 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   // vertex is touched.
   bool unexplained = odd && !known && v.right && v.certified && !v.in_band;
   if (unexplained && touches_edge(model.surface, ray)) ++tally.in_band[c], unexplained = false;
-  if (same && v.right && !unexplained) return;
+  if (alike && v.right && !unexplained) return;
   ++tally.wrong;
   if (tally.text.size() > 2000) return;
   tally.text += fmt::format("\n{}, {}, {} hits for parity {}{}{}: {}:{}", model.name, name_of(which),
-                            hits.size(), aimed.parity, same ? "" : ", closest or occluded differ",
+                            hits.size(), aimed.parity, alike ? "" : ", closest or occluded differ",
                             unexplained ? ", unexplained" : "", text_of(aimed.ray), v.text);
   for (const Hit& h : hits)
     tally.text += fmt::format("\n  hit t {:.17g}, patch {} at ({:.17g}, {:.17g})", h.t, h.patch, h.u, h.v);
