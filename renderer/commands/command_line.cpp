@@ -33,6 +33,11 @@ std::pair<CLI::App*, Options*> add(CLI::App& program, CommandLine& line, const c
   return {command, options.get()};
 }
 
+// For options whose empty value CLI11 takes for none.
+CLI::Validator not_empty(const char* complaint) {
+  return CLI::Validator([complaint](const std::string& value) { return value.empty() ? complaint : ""; }, "");
+}
+
 void add_output(CLI::App& command, std::string& path, const char* what) {
   command.add_option("-o,--output", path, fmt::format("{}; - for standard output (the default)", what));
 }
@@ -61,8 +66,9 @@ bool parse_resolution(const std::string& text, std::pair<std::int64_t, std::int6
 
 // --spp, --seed, --resolution WxH, --integrator, --normals, --layers.
 void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
-  command.add_option("--spp", overrides.spp, "Samples per pixel")->type_name("N");
-  command.add_option("--seed", overrides.seed, "Seed of the random numbers")->type_name("N");
+  const CLI::Validator given = not_empty("has no value");
+  command.add_option("--spp", overrides.spp, "Samples per pixel")->type_name("N")->check(given);
+  command.add_option("--seed", overrides.seed, "Seed of the random numbers")->type_name("N")->check(given);
   command
       .add_option_function<std::string>(
           "--resolution",
@@ -98,19 +104,21 @@ void add_render(CLI::App& program, CommandLine& line) {
       add<RenderCommand>(program, line, "render", "Render a scene to an OpenEXR file", run_render);
   add_scene_options(*command, options->scene);
   add_sampling_options(*command, options->scene.overrides);
-  const CLI::Validator named([](const std::string& path) { return path.empty() ? "names no file" : ""; }, "");
+  const CLI::Validator named = not_empty("names no file"), given = not_empty("has no value");
   command
       ->add_option("-o,--output", options->output,
                    "OpenEXR file (the scene's name in this folder by default)")
       ->check(named);
   command->add_option("--png", options->png, "Also write an 8-bit sRGB preview")->check(named);
-  command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops");
+  command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops")
+      ->check(given);
   command
       ->add_option("--threads", options->threads,
                    "Threads (all processors by default); no effect on the picture")
       ->check(CLI::Range(0, 4096));
-  command->add_option("--crop", options->crop,
-                      "x0,y0,x1,y1: render the pixels x0 <= x < x1, y0 <= y < y1 alone");
+  command
+      ->add_option("--crop", options->crop, "x0,y0,x1,y1: render the pixels x0 <= x < x1, y0 <= y < y1 alone")
+      ->check(given);
   command->add_flag("--resume", options->resume,
                     "Keep the samples in OUTPUT.state, and go on from there if it exists");
   command->add_flag("--quiet", options->quiet, "No progress and no notes");
@@ -187,7 +195,8 @@ void add_study(CLI::App& program, CommandLine& line) {
       ->delimiter(',');
   command->add_option("--scene", options->scene,
                       "For corner-normals: the objects of a scene instead of families");
-  command->add_option("-o,--output", options->output, "Folder (the study's name in this folder by default)");
+  command->add_option("-o,--output", options->output, "Folder (the study's name in this folder by default)")
+      ->check(not_empty("names no folder"));
   command->add_flag("--quick", options->quick, "Fewer places and smaller pictures, within a minute");
   command->add_flag("--quiet", options->quiet, "No progress");
 }

@@ -125,7 +125,7 @@ bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
     if (present == columns_.size())
       fail(present,
            fmt::format("expected {} columns at most ({})", columns_.size(), fmt::join(columns_, ",")));
-    if (field.starts_with('+')) field.remove_prefix(1);
+    if (field.starts_with('+') && !field.starts_with("+-")) field.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     const bool whole = !field.empty() && end == field.data() + field.size();
