@@ -15,7 +15,7 @@ namespace rondure {
 namespace {
 
 // In the machine's own byte order: a state file goes nowhere else.
-constexpr char magic[] = "rondure state 1\n";
+constexpr char magic[] = "rondure state 2\n";
 
 [[noreturn]] void damaged(const std::string& path) {
   throw std::runtime_error(fmt::format("{}: the file is damaged; delete it to start anew", path));
@@ -26,11 +26,11 @@ struct Header {
   std::uint32_t samples = 0;
   std::uint64_t rejected = 0;
   std::uint64_t pixels = 0;
-  std::uint64_t checksum = 0;  // of the sums
+  std::uint64_t checksum = 0;  // of the sums, and of what stands above
 };
 
-std::uint64_t checksum(const std::vector<PixelSums>& sums) {
-  std::uint64_t hash = 0;
+std::uint64_t checksum(const Header& header, const std::vector<PixelSums>& sums) {
+  std::uint64_t hash = hash_with(hash_with(header.samples, header.rejected), header.pixels);
   for (const PixelSums& pixel : sums) {
     for (const double value : pixel.values) {
       std::uint64_t bits;
@@ -48,8 +48,9 @@ std::string resume_path(const std::string& image) { return image + ".state"; }
 void write_resume_state(const std::string& path, const std::string& key, const Film& film) {
   AtomicFile target(path);
   std::ofstream file(target.temporary(), std::ios::binary);
-  const Header header{static_cast<std::uint32_t>(key.size()), film.whole_samples(), film.whole_rejected,
-                      film.whole.size(), checksum(film.whole)};
+  Header header{static_cast<std::uint32_t>(key.size()), film.whole_samples(), film.whole_rejected,
+                film.whole.size()};
+  header.checksum = checksum(header, film.whole);
   file.write(magic, sizeof magic);
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   file.write(key.data(), static_cast<std::streamsize>(key.size()));
@@ -84,7 +85,8 @@ bool read_resume_state(const std::string& path, const std::string& key, Film& fi
   if (header.pixels != film.whole.size()) damaged(path);
   file.read(reinterpret_cast<char*>(film.whole.data()),
             static_cast<std::streamsize>(film.whole.size() * sizeof(PixelSums)));
-  if (!file || file.peek() != std::char_traits<char>::eof() || checksum(film.whole) != header.checksum)
+  if (!file || file.peek() != std::char_traits<char>::eof() ||
+      checksum(header, film.whole) != header.checksum)
     damaged(path);
   film.samples = header.samples;
   film.rejected = film.whole_rejected = header.rejected;
