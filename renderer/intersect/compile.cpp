@@ -27,6 +27,7 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_
   const Surface& surface = traced.surface;
   CompiledSurface compiled;
   compiled.nets = &surface.patches;
+  compiled.closed = surface.closed;
   compiled.solver = traced.solver;
   if (surface.ellipsoid) {
     compiled.ellipsoid.emplace(*surface.ellipsoid);

@@ -10,6 +10,7 @@ struct Crossing {
   double s_error = 0.0;  // bound on the error of `s`
   double extent = 0.0;   // size of the surface, as its radius of curvature where that matters
   int sign = 0;          // of direction . normal: -1 entering, +1 leaving, 0 when rounding cannot tell
+  int likely = 0;        // the same, as it was computed
 };
 
 // `point` and the unnormalised `normal` in the surface's frame; `error`: how far, at right angles to the ray,
@@ -28,7 +29,8 @@ inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dve
       error < quadratic * cosine ? error / cosine : quadratic;  // also when the normal vanishes
   c.s_error = 2.0 * shift / length + 0x1p-52 * std::fabs(ray.slide + c.s);
   c.extent = extent;
-  c.sign = tangent || !(std::fabs(along) > 0.0) ? 0 : (along > 0.0 ? 1 : -1);
+  c.likely = along > 0.0 ? 1 : along < 0.0 ? -1 : 0;
+  c.sign = tangent ? 0 : c.likely;
   return c;
 }
 
@@ -68,6 +70,24 @@ inline bool accept(const Ray& ray, const LocalRay& local, int surface, const dve
     }
   }
   return t >= ray.t_min && t <= ray.t_max;
+}
+
+// Whether a ray that has just left one surface, of size `start_size`, meets another there: at a point where
+// two closed surfaces touch, or all but touch, rounding puts the start a little inside the other, its wall
+// behind the ray. It is ahead: a ray that leaves a surface is in the space between, and goes on into the
+// other. For a crossing that `accept` has refused as too early; `t` receives its place on the ray, the start.
+// A ray that goes into the surface that it starts on is not asked: there the other wall may be the one that
+// it came through.
+inline bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
+                              const Crossing& c, double& t) {
+  if (c.likely >= 0 || !(glm::dot(ray.start.normal, local.direction) > -0x1p-50)) return false;
+  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
+  // the extent at least.
+  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
+  const double behind = -(local.slide + c.s), bound = c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent));
+  if (!(behind >= 0.0 && behind <= bound) || ray.t_min > 0.0 || ray.t_max < 0.0) return false;
+  t = 0.0;
+  return true;
 }
 
 }  // namespace rondure

@@ -15,6 +15,18 @@ namespace {
 
 constexpr std::size_t cells_per_query = 1 << 15;
 
+// Whether the crossing is a hit, in the query's ray, of `surface`; `t` receives its place.
+bool is_hit(const Query& q, unsigned surface, const Crossing& c, double& t) {
+  const dvec3& frame = q.origins[surface];
+  if (accept(*q.ray, q.local, static_cast<int>(surface), frame, c, t)) return true;
+  const int start = q.ray->start.surface;
+  if (start < 0 || start == static_cast<int>(surface) || !q.compiled[surface]->closed) return false;
+  const CompiledSurface& left = *q.compiled[start];
+  if (!left.closed) return false;
+  const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
+  return accept_at_contact(*q.ray, q.local, frame, size, c, t);
+}
+
 enum class Taken { no, noted, nearest, settled };
 
 // Takes one crossing into the query; `normal()` is the unit normal there, asked for when every hit counts.
@@ -24,7 +36,7 @@ Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, 
            const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = q.origins[surface];
-  if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) return Taken::no;
+  if (!is_hit(q, surface, c, hit.t)) return Taken::no;
   if (q.mode == Mode::any) return Taken::settled;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
@@ -86,7 +98,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
     c.extent = e.extent;
     const Reach reach{roots.direction, c.s_error};
     const int leaving = roots.half > 0.0 ? side : 0;
-    c.sign = sphere.outward < 0.0 ? -leaving : leaving;
+    c.sign = c.likely = sphere.outward < 0.0 ? -leaving : leaving;
     Hit hit;
     std::optional<PlaceOnSphere> place;
     // Which way the ray crosses has to be known where it starts on the surface.
@@ -95,7 +107,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       if (!place) continue;
       c.sign = place->outward < 0.0 ? -leaving : leaving;
     }
-    if (!accept(*q.ray, q.local, static_cast<int>(surface), frame, c, hit.t)) continue;
+    if (!is_hit(q, surface, c, hit.t)) continue;
     if (q.mode == Mode::any) {
       if (place || covers(sphere, nets, n, reach)) return true;
       continue;

@@ -19,6 +19,7 @@ namespace rondure {
 struct CompiledSurface {
   LeafSet set;                         // one box and no leaf for an analytic surface
   Box bounds;                          // of all leaves
+  bool closed = false;
   std::vector<RadialPiece> radial;     // of the last leaves
   std::vector<PatchedSphere> spheres;  // of the boxes after all leaves
   std::optional<Ellipsoid> ellipsoid;

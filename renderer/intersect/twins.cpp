@@ -27,7 +27,8 @@ bool same_degrees(const Net& a, const Net& b) {
 
 bool same(const TracedSurface& a, const TracedSurface& b) {
   const Surface &s = a.surface, &t = b.surface;
-  if (a.solver != b.solver || s.patches.size() != t.patches.size() || s.ellipsoid != t.ellipsoid)
+  if (a.solver != b.solver || s.closed != t.closed || s.patches.size() != t.patches.size() ||
+      s.ellipsoid != t.ellipsoid)
     return false;
   for (std::size_t k = 0; k < s.patches.size(); ++k)
     if (!same_degrees(s.patches[k], t.patches[k]) || bytes_of(s.patches[k]) != bytes_of(t.patches[k]))

@@ -88,7 +88,7 @@ class Walk {
     const long wrong_before = tally.wrong();
     ++tally.paths[static_cast<std::size_t>(which)];
     for (int depth = 0;; ++depth) {
-      if (!ends_right(ray, hit, inside, tally)) break;
+      if (!ends_right(ray, hit, inside, tally)) return;
       light += throughput * found_light(world, ray, hit, nullptr).x;
       if (!hit || depth == max_depth) break;
       sampler.start_block(depth + 1);
@@ -96,7 +96,7 @@ class Walk {
       const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
       if (!here.scattered) {
         note(++tally.wrong_choices, "light absorbed", ray, tally);
-        break;
+        return;
       }
       same.next_1d();
       const ScatterSample& s = *here.scattered;

@@ -18,6 +18,8 @@ struct EllipsoidChord {
 };
 
 class EllipsoidReference {
+  using Quad = __float128;
+
  public:
   EllipsoidReference(const dmat3& linear, const dvec3& center) : center_(center) {
     // The adjugate over the determinant: 113 bits less what the matrix's condition takes.
@@ -43,16 +45,9 @@ class EllipsoidReference {
   }
 
   EllipsoidChord chord(const dvec3& origin, const dvec3& direction) const {
-    Quad q[3], d[3], dd = 0, qd = 0;
-    for (int i = 0; i < 3; ++i) {
-      q[i] = d[i] = 0;
-      for (int j = 0; j < 3; ++j) {
-        q[i] += inverse_[i][j] * (static_cast<Quad>(origin[j]) - static_cast<Quad>(center_[j]));
-        d[i] += inverse_[i][j] * static_cast<Quad>(direction[j]);
-      }
-      dd += d[i] * d[i], qd += q[i] * d[i];
-    }
-    const Quad middle = -qd / dd;
+    Quad q[3], d[3];
+    to_unit_space(origin, direction, q, d);
+    const Quad dd = dot(d, d), middle = -dot(q, d) / dd;
     Quad impact2 = 0;
     dvec3 nearest, along;
     for (int i = 0; i < 3; ++i) {
@@ -61,7 +56,6 @@ class EllipsoidReference {
       nearest[i] = static_cast<double>(x), along[i] = static_cast<double>(d[i]);
     }
     EllipsoidChord out;
-    // b - 1 as (b^2 - 1) / (b + 1): near touching nothing is left of b - 1 itself.
     out.clearance = static_cast<double>(impact2 - 1) / (1.0 + std::sqrt(static_cast<double>(impact2)));
     if (!(impact2 < 1)) return out;
     const double half = std::sqrt(static_cast<double>((1 - impact2) / dd));
@@ -75,6 +69,24 @@ class EllipsoidReference {
     return out;
   }
 
+  // How deep in it the points o + t d are at most, t in [0, end], as 1 - |x| in the unit sphere's space.
+  // Finite ends only, unless the ray leaves it.
+  double depth(const dvec3& origin, const dvec3& direction, double end) const {
+    Quad q[3], d[3];
+    to_unit_space(origin, direction, q, d);
+    const Quad dd = dot(d, d), middle = -dot(q, d) / dd;
+    const Quad t = std::clamp<Quad>(middle, 0, end);
+    for (int i = 0; i < 3; ++i) q[i] += t * d[i];
+    return below_surface(q);
+  }
+  // And at t alone.
+  double depth_at(const dvec3& origin, const dvec3& direction, double t) const {
+    Quad q[3], d[3];
+    to_unit_space(origin, direction, q, d);
+    for (int i = 0; i < 3; ++i) q[i] += static_cast<Quad>(t) * d[i];
+    return below_surface(q);
+  }
+
   // Largest distance from the centre, at most sqrt(3) times too large.
   double extent() const { return extent_; }
   // By how much lengths grow, at most, on the way to the unit sphere's space.
@@ -83,7 +95,21 @@ class EllipsoidReference {
   dvec3 normal(const dvec3& point) const { return glm::normalize((rounded_ * (point - center_)) * rounded_); }
 
  private:
-  using Quad = __float128;
+  static Quad dot(const Quad* a, const Quad* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  // b - 1 is (b^2 - 1) / (b + 1): near the surface nothing is left of b - 1 itself.
+  static double below_surface(const Quad* x) {
+    const Quad norm2 = dot(x, x);
+    return static_cast<double>(1 - norm2) / (1.0 + std::sqrt(static_cast<double>(norm2)));
+  }
+  void to_unit_space(const dvec3& origin, const dvec3& direction, Quad* q, Quad* d) const {
+    for (int i = 0; i < 3; ++i) {
+      q[i] = d[i] = 0;
+      for (int j = 0; j < 3; ++j) {
+        q[i] += inverse_[i][j] * (static_cast<Quad>(origin[j]) - static_cast<Quad>(center_[j]));
+        d[i] += inverse_[i][j] * static_cast<Quad>(direction[j]);
+      }
+    }
+  }
 
   dvec3 center_;
   Quad inverse_[3][3];
