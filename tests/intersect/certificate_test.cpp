@@ -69,6 +69,30 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
   CHECK(t.count() > certified / 3);
 }
 
+TEST_CASE("A hit on an analytic sphere does not stand in its own way", "[certificate]") {
+  // Small and far away the root's bounds, in directions from the point nearest to the centre, are closer than
+  // t rounds.
+  std::mt19937_64 random(11);
+  long hits = 0, refused = 0;
+  std::string worst = "none";
+  for (const double radius : {0.02, 0.05, 1.0}) {
+    const dvec3 center(0.6, -0.4, 0.9);
+    const Tracer tracer({{placed(build_family(R"({"type": "sphere"})"), radius, center), Solver::newton}});
+    const Certifier certifier(tracer);
+    for (int k = 0; k < 100'000; ++k) {
+      const dvec3 origin = center + 9.0 * random_direction(random);
+      const Ray ray{origin, glm::normalize(center + 0.9 * radius * random_direction(random) - origin)};
+      const Hit hit = tracer.closest(ray);
+      const Certificate c = certifier.certify(ray, hit);
+      hits += static_cast<bool>(hit);
+      if (!c) ++refused, worst = text_of(ray);
+    }
+  }
+  INFO(hits << " hits, " << refused << " not certified: " << worst);
+  CHECK(refused == 0);
+  CHECK(hits == 300'000);
+}
+
 TEST_CASE("What is not so is not certified", "[certificate]") {
   const Tracer tracer(
       {{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::newton},
