@@ -157,8 +157,8 @@ class Attempt {
       if (!roots.may_meet) return true;
       for (const Enclosure<T>& s : roots.s) {
         if (s.high < from) continue;
-        // The hit's own root, or one that cannot be told from it, is later than `until` in part: by t, as that
-        // came from it. Going back to s would round by more than there may be between its bounds.
+        // The hit's own root, or one that cannot be told from it, is later than `until` in part: by t, as
+        // that came from it. Going back to s would round by more than there may be between its bounds.
         if (!(t_of(local, s).high >= until_t)) return false;
         if (!hit_ && s.low <= until) return false;
         least_t = std::min(least_t, t_of(local, s).low);
