@@ -1,0 +1,90 @@
+// Rays from inside at where patches meet: a root there lies beside one patch, or both, by rounding, and
+// counts on one of them at least.
+
+#include <fmt/core.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "renderer/bezier/rational.h"
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
+
+namespace rondure {
+namespace {
+
+struct Model {
+  const char* name;
+  const char* object;
+  double depth;  // of the ball about the origin that rays start in; 0: at the origin, from where the surface
+                 // is a function of direction
+};
+
+constexpr Model models[] = {
+    {"cube", R"({"type": "sphere_tiling", "topology": "cube"})", 0.9},
+    {"hemispheres", R"({"type": "sphere_tiling", "topology": "hemispheres"})", 0.9},
+    {"icosahedron pairs", R"({"type": "sphere_tiling", "topology": "icosahedron_pairs"})", 0.9},
+    {"rhombicuboctahedron", R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron"})", 0.9},
+    {"octants", R"({"type": "sphere_octant"})", 0.9},
+    {"pebble", R"({"type": "iss", "octants": {"degree": 3, "interior": 1}})", 0.0},
+    {"quartic octants", R"({"type": "iss",
+      "vertices": [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]],
+      "patches": [{"sphere": [0, 2, 4]}, {"sphere": [1, 2, 4]}, {"sphere": [0, 3, 4]}, {"sphere": [1, 3, 4]},
+                  {"sphere": [0, 2, 5]}, {"sphere": [1, 2, 5]}, {"sphere": [0, 3, 5]}, {"sphere": [1, 3, 5]}]})",
+     0.9},
+};
+
+// Of a side, every sixth time a corner; at the middle of sides, too, where coordinates are the same number.
+dvec3 seam_point(const Net& net, std::mt19937_64& random) {
+  const auto draw = [&] { return std::uniform_real_distribution<double>(0.0, 1.0)(random); };
+  const double kind = draw(), s = kind < 1.0 / 6.0 ? 0.0 : kind < 0.25 ? 0.5 : draw();
+  const double side = draw();
+  if (std::holds_alternative<TriangleNet>(net))
+    return side < 1.0 / 3.0   ? net_point(net, s, 0.0)
+           : side < 2.0 / 3.0 ? net_point(net, 0.0, s)
+                              : net_point(net, s, 1.0 - s);
+  const double other = draw() < 0.5 ? 0.0 : 1.0;
+  return side < 0.5 ? net_point(net, s, other) : net_point(net, other, s);
+}
+
+}  // namespace
+
+TEST_CASE("No ray passes where patches meet", "[hits][seams]") {
+  std::mt19937_64 random(29);
+  long rays = 0, lost = 0, twice = 0;
+  std::string text, worst = "none";
+  for (const Model& model : models)
+    for (const auto& [solver, name] : {std::pair{Solver::newton, "newton"},
+                                       {Solver::clipping, "clipping"},
+                                       {Solver::radial, "radial"},
+                                       {Solver::quadric, "quadric"}}) {
+      const double radius = 0.7;  // no power of two
+      const dvec3 center = solver == Solver::newton ? dvec3(0.0) : dvec3(3.1, -2.2, 0.9);
+      const Tracer tracer({{placed(build_family(model.object), radius, center), solver}});
+      const std::vector<Net>& nets = tracer.surfaces()[0].surface.patches;
+      long here = 0;
+      for (int k = 0; k < (solver == Solver::clipping ? 500 : 3000); ++k) {
+        const Net& net = nets[std::uniform_int_distribution<std::size_t>(0, nets.size() - 1)(random)];
+        const double part = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+        const dvec3 origin = center + model.depth * radius * std::cbrt(part) * random_direction(random);
+        const Ray ray{origin, center + seam_point(net, random) - origin};
+        const std::size_t hits = tracer.all(ray).size();
+        ++rays, lost += hits == 0, twice += hits > 1, here += hits == 0;
+        if (hits != 1 || static_cast<bool>(tracer.closest(ray)) != tracer.occluded(ray))
+          worst = fmt::format(
+              "{}, {}: {} hits, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", model.name,
+              name, hits, origin.x, origin.y, origin.z, ray.direction.x, ray.direction.y, ray.direction.z);
+      }
+      if (here > 0) text += fmt::format("\n  {} of {}, {}", here, model.name, name);
+    }
+  INFO(rays << " rays, " << lost << " lost, " << twice << " met twice; the last: " << worst << text);
+  CHECK(lost == 0);
+  CHECK(twice == 0);
+  CHECK(worst == "none");
+  CHECK(rays == 7 * (3 * 3000 + 500));
+}
+
+}  // namespace rondure
