@@ -21,12 +21,15 @@ namespace {
 
 float linear_of_srgb(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
 
-bool fail(const rondure::ImageReport* report, const std::string& message) {
+// The library puts what its own libraries said on lines of its own.
+bool fail(const rondure::ImageReport* report, std::string message) {
+  while (message.ends_with('\n')) message.pop_back();
+  for (std::size_t at; (at = message.find('\n')) != std::string::npos;) message.replace(at, 1, "; ");
   report->fail(report->context, message.empty() ? "unknown error" : message.c_str());
   return false;
 }
 
-std::size_t index(int x, int y, int width) {
+std::size_t index(std::int64_t x, std::int64_t y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
@@ -87,11 +90,12 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
   // The file's pixels lie anywhere in the picture, or beyond it; where there are none it is black.
   image.width = spec.full_width;
   image.height = spec.full_height;
-  const int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
+  // Some formats place them with any integers.
+  const std::int64_t left = std::int64_t{spec.x} - spec.full_x, top = std::int64_t{spec.y} - spec.full_y;
   image.rgb.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3, 0.0f);
   const int colours = channels >= 3 ? 3 : 1;  // grey, or grey and alpha, otherwise
-  for (int y = std::max(0, -top); y < spec.height && y + top < image.height; ++y) {
-    for (int x = std::max(0, -left); x < spec.width && x + left < image.width; ++x) {
+  for (std::int64_t y = std::max<std::int64_t>(0, -top); y < spec.height && y + top < image.height; ++y) {
+    for (std::int64_t x = std::max<std::int64_t>(0, -left); x < spec.width && x + left < image.width; ++x) {
       const float* from = &all[index(x, y, spec.width) * stride];
       float* to = &image.rgb[index(x + left, y + top, image.width) * 3];
       for (int c = 0; c < 3; ++c) {

@@ -29,6 +29,9 @@ void check_refused(const std::string& folder, const std::vector<std::string>& ar
   CAPTURE(arguments, result.err, message);
   CHECK(result.err.starts_with("rondure: error: " + message));
   CHECK(result.err.find("rondure: error: ", 1) == std::string::npos);
+  // What follows the first line is the file's, indented.
+  for (std::size_t at = result.err.find('\n'); at + 1 < result.err.size(); at = result.err.find('\n', at + 1))
+    CHECK(result.err[at + 1] == ' ');
   CHECK(result.err.size() < 4000);
   CHECK(result.exit_code == 1);
   CHECK(names_in(folder) == before);
@@ -189,6 +192,7 @@ TEST_CASE("broken environment images are refused in bounded memory", "[commands]
       {"display.exr", with_window("displayWindow", wide), "it claims 100000 x 100000 pixels"},
       {"text.png", "no picture", ""},
       {"half.png", png.substr(0, png.size() / 2), ""},
+      {"tail.png", png.substr(0, png.size() - 30), ""},
       {"none.hdr", radiance + "-Y 8 +X 16\n", ""},
       {"huge.hdr", radiance + "-Y 1000000 +X 1000000\n", "it claims 1000000 x 1000000 pixels"},
       {"negative.hdr", radiance + "-Y -8 +X -16\n", ""},
