@@ -253,7 +253,9 @@ class Search {
     const double residual = size(s.value);
     // Half an ulp of each parameter moves the point by this much, on a steep patch by more than its rounding.
     const double resolution = unit_roundoff * (size(s.du) + size(s.dv));
-    if (residual <= point_size * error_ + resolution)
+    // A root that is sure to be near is kept: where the ray grazes, Newton's steps along it may leave more of
+    // the residual than rounding does.
+    if (!tangent || residual <= point_size * error_ + resolution)
       roots_.push_back({p.x, p.y, tangent || residual > 0.25 * error_});
   }
 

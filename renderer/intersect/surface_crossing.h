@@ -11,6 +11,22 @@
 
 namespace rondure {
 
+// The radius of curvature that a ray sees that grazes a patch of size `extent`, if that is larger; not so
+// large that rounding by `error` moves the root by more than some sizes. For most patches their size is a
+// bound, but flat ones, and others in some directions, do not leave the ray quadratically.
+inline double radius_along(const Net& net, const Root& root, const dvec3& direction, double extent,
+                           double error) {
+  const SurfaceJet jet = surface_jet(net, root.u, root.v);
+  const double uu = glm::dot(jet.du, jet.du), uv = glm::dot(jet.du, jet.dv), vv = glm::dot(jet.dv, jet.dv);
+  const double du = glm::dot(jet.du, direction), dv = glm::dot(jet.dv, direction), det = uu * vv - uv * uv;
+  const double a = (vv * du - uv * dv) / det, b = (uu * dv - uv * du) / det;
+  const dvec3 bend = a * a * jet.duu + 2.0 * a * b * jet.duv + b * b * jet.dvv;
+  const double out = glm::dot(bend, glm::cross(jet.du, jet.dv)) / std::sqrt(det);
+  const double radius = glm::dot(direction, direction) / std::fabs(out), most = 8.0 * extent * extent / error;
+  // At a singular point nothing of this is a number.
+  return radius > extent ? std::fmin(radius, most) : extent;
+}
+
 // `s`: the patch at the root. `point` receives the place in the surface's frame.
 inline Crossing cross_surface(const Leaf& leaf, const Net& net, const LocalRay& ray, const Root& root,
                               const FirstOrder<dvec4>& s, dvec3& point) {
@@ -24,8 +40,12 @@ inline Crossing cross_surface(const Leaf& leaf, const Net& net, const LocalRay& 
     across = unit_normal(net, root.u, root.v, s);
   // The parameters' own resolution counts too, as it does in `settle`.
   const double step = unit_roundoff * (largest(xu) + largest(xv)) * inverse;
-  Crossing c = make_crossing(ray, point, across, settled_bound(leaf.scale, ray) * inverse + step,
-                             leaf.scale.position * inverse, root.tangent);
+  const double error = settled_bound(leaf.scale, ray) * inverse + step;
+  double extent = leaf.scale.position * inverse;
+  const double along = glm::dot(across, ray.direction);
+  if (2.0 * extent * along * along < error * glm::dot(across, across) * ray.length2)
+    extent = radius_along(net, root, ray.direction, extent, error);
+  Crossing c = make_crossing(ray, point, across, error, extent, root.tangent);
   move_to_tangent_plane(c, ray, point, across, step);
   return c;
 }
