@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -20,10 +21,19 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
 
   Verdict out;
   out.certified = !meeting.exhausted;
-  // A root moves along the ray by band / cosine, and near a touching place by the square root of band.
+  // A root moves along the ray by band / cosine, and near a touching place by the square root of twice the
+  // band times the radius of curvature there: the surface's own, mostly, and more where it is flat, but never
+  // past the nearest crossing.
   const auto near_graze = [&](double t) {
-    for (const oracle::Graze& g : meeting.grazes)
-      if (g.depth <= band && std::fabs(g.t - t) <= 4.0 * std::sqrt(band * radius) / speed) return true;
+    constexpr double flatness = 16.0;  // the root of a radius of curvature, in the surface's radii
+    const double reach = 4.0 * std::sqrt(band * radius) / speed;
+    for (const oracle::Graze& g : meeting.grazes) {
+      if (g.depth > band || std::fabs(g.t - t) > flatness * reach) continue;
+      if (std::fabs(g.t - t) <= reach) return true;
+      const double low = std::min(g.t, t), high = std::max(g.t, t), room = rounding(t);
+      const auto between = [&](const oracle::Crossing& c) { return c.t > low + room && c.t < high - room; };
+      if (std::none_of(found.begin(), found.end(), between)) return true;
+    }
     return false;
   };
   // A ray through a singular corner, or in the tangent plane of a vertex, may take more pieces than there is
