@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tangents_in.h"
 
@@ -227,9 +228,11 @@ double cross_error(const Net& net, double u, double v, const FirstOrder<dvec4>& 
   const double of_point = terms.value / std::abs(f.value.w);  // relative to epsilon, as all here
   const double of_a = terms.du + std::abs(f.du.w) * of_point, of_b = terms.dv + std::abs(f.dv.w) * of_point;
   const double a = largest_component(t.a), b = largest_component(t.b);
+  if (!(a > 0.0 && b > 0.0)) return infinity;
   const double sine = glm::length(glm::cross(t.a / a, t.b / b));
+  if (!(sine > 0.0)) return infinity;
   const double error = epsilon * degree_of(net) * (of_a / a + of_b / b) / sine;
-  return a > 0.0 && b > 0.0 && sine > 0.0 && std::isfinite(error) ? error : infinity;
+  return std::isfinite(error) ? error : infinity;
 }
 
 // The squares of lengths between these are neither subnormal nor infinite.
@@ -300,7 +303,7 @@ Curvature curvature(const Net& net, double u, double v) {
   const double e = glm::dot(s.du, s.du), f = glm::dot(s.du, s.dv), g = glm::dot(s.dv, s.dv);
   const double l = glm::dot(s.duu, n), m = glm::dot(s.duv, n), k = glm::dot(s.dvv, n);
   const double area = glm::dot(glm::cross(s.du, s.dv), glm::cross(s.du, s.dv));
-  return {(l * k - m * m) / area, (e * k - 2.0 * f * m + g * l) / (2.0 * area)};
+  return {quotient(l * k - m * m, area), quotient(e * k - 2.0 * f * m + g * l, 2.0 * area)};
 }
 
 NormalCone cone_of(const dvec3* vectors, std::size_t count) {

@@ -20,7 +20,7 @@ struct Camera {
   dvec3 right{1.0, 0.0, 0.0};
   dvec3 up{0.0, 0.0, 1.0};
   dvec3 forward{0.0, 1.0, 0.0};
-  double extent = 0.0;          // height of the image at distance 1, or of the orthographic window
+  double extent = 1.0;          // height of the image at distance 1, or of the orthographic window
   double aperture = 0.0;        // radius of the lens
   double focus_distance = 1.0;  // along `forward`
 };

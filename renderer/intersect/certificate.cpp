@@ -148,7 +148,7 @@ class Attempt {
     // Where the ray is a ray, but too far away to be followed, nothing is known.
     if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local))
       return !is_finite(ray_.origin) || !is_finite(ray_.direction) || ray_.direction == dvec3(0.0);
-    const dvec3 inverse = 1.0 / local.direction;
+    const dvec3 inverse = inverse_of(local.direction);
     if (bounds_[k].whole && !meets_box(local, inverse, *bounds_[k].whole)) return true;
     const CertifiedRay<T> ray(ray_.origin, surface.origin, local);
     const T from = s_of(local, static_cast<T>(ray_.t_min)).low, until = s_of(local, until_t).high;

@@ -1,6 +1,7 @@
 // A root made into a place on the ray: its t, how exact that is, and which way the ray crosses.
 #pragma once
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/local_ray.h"
 
 namespace rondure {
@@ -41,7 +42,7 @@ inline void move_to_tangent_plane(Crossing& c, const LocalRay& ray, const dvec3&
                                   double resolution) {
   if (!(resolution > 0x1p-50 * (largest(point) + largest(ray.base)))) return;
   const dvec3 beside = point - ray.base - c.s * ray.direction;
-  const double slide = glm::dot(normal, beside) / glm::dot(normal, ray.direction);
+  const double slide = quotient(glm::dot(normal, beside), glm::dot(normal, ray.direction));
   if (std::fabs(slide) <= c.s_error) c.s += slide;
 }
 

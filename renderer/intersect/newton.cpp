@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/dispatch.h"
+#include "renderer/bezier/quotient.h"
 
 namespace rondure {
 namespace {

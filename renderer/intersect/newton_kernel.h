@@ -104,7 +104,7 @@ FOR_THIS_SET inline FramedRay framed(const LeafFrame& f, const LocalRay& ray) {
   const double rise = (f.normal.x * d.x + f.normal.y * d.y) + f.normal.z * d.z;
   const dvec2 from = (o.x * f.across[0] + o.y * f.across[1]) + (o.z * f.across[2] + f.across[3]);
   const dvec2 along = (d.x * f.across[0] + d.y * f.across[1]) + d.z * f.across[2];
-  const dvec2 slope = along * (1.0 / rise);
+  const dvec2 slope = along * quotient(1.0, rise);
   return {slope, from - height * slope};
 }
 

@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "renderer/bezier/normal.h"
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/slab.h"
@@ -93,7 +94,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
         sphere.inverse_radius > 0.0 ? sphere.inverse_radius : glm::length(n * e.inverse);
     Crossing c;
     c.s = roots.middle + side * roots.half;
-    c.s_error = 2.0 * std::min(error * normal_length * roots.inverse_length2 / roots.half, grazing) +
+    c.s_error = 2.0 * std::min(quotient(error * normal_length * roots.inverse_length2, roots.half), grazing) +
                 0x1p-52 * std::fabs(q.local.slide + c.s);
     c.extent = e.extent;
     const Reach reach{roots.direction, c.s_error};
@@ -167,7 +168,7 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
 void make_planes(Query& q) {
   if (!q.has_normals) {
     set_normals(q.local);
-    q.inverse_direction = 1.0 / q.local.direction;
+    q.inverse_direction = inverse_of(q.local.direction);
     q.has_normals = true;
   }
   set_distances(q.local);

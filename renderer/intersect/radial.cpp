@@ -7,6 +7,7 @@
 #include "renderer/bezier/bernstein_roots.h"
 #include "renderer/bezier/dispatch.h"
 #include "renderer/bezier/product.h"
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/projected_net.h"
@@ -33,11 +34,10 @@ struct Stretch {
 
   // Keeps where at + s slope >= 0.
   void clip(double at, double slope) {
-    const double s = -at / slope;
     if (slope > 0.0)
-      from = std::max(from, s);
+      from = std::max(from, -at / slope);
     else if (slope < 0.0)
-      to = std::min(to, s);
+      to = std::min(to, -at / slope);
     else if (at < 0.0)
       to = -INFINITY;
   }
@@ -100,7 +100,7 @@ double polish(const TriangleNet& net, const LocalRay& ray, dvec2& at, int steps,
   for (int k = 0; k < steps && !(moved < enough); ++k) {
     const FirstOrder<dvec4> s = triangle_first<N>(net.points.data(), net.n, p.x, p.y);
     const dvec2 f = project(ray, s.value), fu = project(ray, s.du), fv = project(ray, s.dv);
-    const double det = fu.x * fv.y - fu.y * fv.x, r = 1.0 / det;
+    const double det = fu.x * fv.y - fu.y * fv.x, r = quotient(1.0, det);
     const dvec2 step(r * (fv.y * f.x - fv.x * f.y), r * (fu.x * f.y - fu.y * f.x));
     p -= step;
     moved = std::max(std::fabs(step.x), std::fabs(step.y));
@@ -206,6 +206,9 @@ bool divides_evenly(const TriangleNet& net) {
   return true;
 }
 
+dmat3 corners_of(const TriangleNet& net) { return {corner(net, 0), corner(net, 1), corner(net, 2)}; }
+
+// Of a net whose corners are in no plane with the origin.
 RadialPiece piece_of(const TriangleNet& net) {
   const int n = net.n;
   RadialPiece piece;
@@ -219,7 +222,7 @@ RadialPiece piece_of(const TriangleNet& net) {
     }
   }
   piece.n = n;
-  piece.rows = glm::transpose(glm::inverse(dmat3(corner(net, 0), corner(net, 1), corner(net, 2))));
+  piece.rows = glm::transpose(glm::inverse(corners_of(net)));
   // h is 1 / w(tau), and w lies between the coefficients.
   piece.low = (1.0 - 8.0 * unit_roundoff) / most, piece.high = (1.0 + 8.0 * unit_roundoff) / least;
   // A coordinate: `even` roundoffs of the net, as many for the inverse, the ray's base and direction, and the
@@ -280,7 +283,7 @@ bool has_radial_form(const Net& any) {
   if (!net || net->n < 1 || net->n > max_degree) return false;
   for (const dvec4& p : net->points)
     if (!(p.w > 0.0) || !std::isfinite(p.w)) return false;
-  if (!divides_evenly(*net)) return false;
+  if (glm::determinant(corners_of(*net)) == 0.0 || !divides_evenly(*net)) return false;
   const RadialPiece whole = piece_of(*net);
   return whole.low > 0.0 && whole.roundoffs < noisiest;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/projected_net.h"
@@ -77,7 +78,7 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
     const double length = size_of(full);
     bool better = false;
     // The last trial is the correction alone.
-    for (double part = std::fmin(1.0, 0.5 / length); !better; part *= 0.25) {
+    for (double part = std::fmin(1.0, quotient(0.5, length)); !better; part *= 0.25) {
       if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
       dvec2 q = Shape::clamp(p - part * full);
       const FirstOrder<dvec2> at = projected(net, ray, q);

@@ -6,11 +6,17 @@
 #include <utility>
 
 #include "renderer/bezier/box.h"
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/local_ray.h"
 
 namespace rondure {
 
-// `inverse_direction`: 1 / ray.direction. In double, with room for its own rounding and for roots that lie
+// 1 / direction: infinite along the axes that a ray does not move along, as `meets_box` takes it.
+inline dvec3 inverse_of(const dvec3& direction) {
+  return {quotient(1.0, direction.x), quotient(1.0, direction.y), quotient(1.0, direction.z)};
+}
+
+// `inverse_direction`: of the ray's. In double, with room for its own rounding and for roots that lie
 // beside their leaf by rounding.
 inline bool meets_box(const LocalRay& ray, const dvec3& inverse_direction, const Box& box) {
   double enter = -INFINITY, leave = INFINITY;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/patch_inverse.h"
 #include "renderer/intersect/sphere_cells.h"
@@ -75,7 +76,7 @@ double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3
       f = f * p.x + row;
       fv = fv * p.x + slope;
     }
-    const double r = 1.0 / (fu.x * fv.y - fu.y * fv.x);
+    const double r = quotient(1.0, fu.x * fv.y - fu.y * fv.x);
     const dvec2 move(r * (fv.y * f.x - fv.x * f.y), r * (fu.x * f.y - fu.y * f.x));
     p -= move;
     moved = std::max(std::fabs(move.x), std::fabs(move.y));

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/root.h"
 
 namespace rondure {
@@ -87,7 +88,7 @@ inline CellPlace cell_at(const dvec3& n, int side) {
                        : is_y ? n.x
                               : n.y;
   const int face = (is_x ? 0 : is_y ? 2 : 4) + (major < 0.0 ? 1 : 0);
-  const double r = 1.0 / std::fabs(major), half = 0.5 * side;
+  const double r = quotient(1.0, std::fabs(major)), half = 0.5 * side;
   const double g = (second * r + 1.0) * half, h = (third * r + 1.0) * half;
   const int row = std::min(static_cast<int>(g), side - 1), column = std::min(static_cast<int>(h), side - 1);
   return {static_cast<std::size_t>((face * side + row) * side + column), 2.0 * (g - row) - 1.0,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/matrix.hpp>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/clipping.h"
 #include "renderer/intersect/ellipsoid_fit.h"
@@ -64,7 +65,8 @@ dvec2 into_domain(const PatchedSphere& sphere, const SpherePatch& patch, const N
   const Image at = image_at(sphere, net, nearest);
   const double uu = glm::dot(at.du, at.du), uv = glm::dot(at.du, at.dv), vv = glm::dot(at.dv, at.dv);
   const double u = glm::dot(at.du, reach.direction), v = glm::dot(at.dv, reach.direction);
-  const dvec2 rate = dvec2(vv * u - uv * v, uu * v - uv * u) / (uu * vv - uv * uv);
+  const double gram = uu * vv - uv * uv;
+  const dvec2 rate(quotient(vv * u - uv * v, gram), quotient(uu * v - uv * u, gram));
   double low = -reach.most, high = reach.most;
   const auto keep = [&](double value, double slope) {  // value + s slope >= 0
     if (value + (slope > 0.0 ? high : low) * slope < 0.0) low = INFINITY;
@@ -135,7 +137,7 @@ void polish(const PatchedSphere& sphere, const Net& net, const dvec3& n, dvec2& 
   for (int k = 0; k < 2; ++k) {
     const FirstOrder<dvec4> s = net_first(net, p.x, p.y);
     const dvec2 f = project(s.value), fu = project(s.du), fv = project(s.dv);
-    const double r = 1.0 / (fu.x * fv.y - fu.y * fv.x);
+    const double r = quotient(1.0, fu.x * fv.y - fu.y * fv.x);
     const dvec2 move(r * (fv.y * f.x - fv.x * f.y), r * (fu.x * f.y - fu.y * f.x));
     if (!(std::max(std::fabs(move.x), std::fabs(move.y)) < 1e-6)) return;
     p -= move;

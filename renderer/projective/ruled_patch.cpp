@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/bezier/quotient.h"
+
 namespace rondure {
 namespace {
 
@@ -54,7 +56,7 @@ RuledPoint ruled_preimage(const lvec4& x) {
 
 SectionArc section_through(const RuledPoint& p, const RuledPoint& r, const RuledPoint& q) {
   // Both coordinates point to r at t = 1/2.
-  return balanced(-det(r.a, p.a) / det(r.a, q.a), -det(r.b, p.b) / det(r.b, q.b));
+  return balanced(-quotient(det(r.a, p.a), det(r.a, q.a)), -quotient(det(r.b, p.b), det(r.b, q.b)));
 }
 
 std::optional<SectionArc> section_in_plane(const RuledPoint& p, const RuledPoint& q, const lvec4& h,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/projective/frame.h"
 
 namespace rondure {
@@ -82,7 +83,8 @@ QuadShape shape_of(const SphericalQuad& quad, const lvec3& centre) {
     // determinant its sine times half the square of the chord.
     const long double root = std::sqrt(p.z * q.z);
     const lvec3 chord = q / q.z - p / p.z;
-    const long double sine = 2 * glm::dot(p, glm::cross(b, q)) / (p.z * q.z * root * glm::dot(chord, chord));
+    const long double sine =
+        quotient(2 * glm::dot(p, glm::cross(b, q)), p.z * q.z * root * glm::dot(chord, chord));
     shape.bend[k] = 2 * std::atan2(sine, b.z / root) * degrees;
   }
   return shape;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/sampling/warps.h"
@@ -54,7 +55,7 @@ Step step_at(const Net& net, const FloatRay& ray, float u, float v) {
 bool meets(const FloatRay& ray, const Vector3In<float>& low, const Vector3In<float>& high) {
   float enter = 0.0f, leave = infinity;
   for (std::size_t c = 0; c < 3; ++c) {
-    const float inverse = 1.0f / ray.direction[c];
+    const float inverse = quotient(1.0f, ray.direction[c]);
     float a = (low[c] - ray.origin[c]) * inverse, b = (high[c] - ray.origin[c]) * inverse;
     if (a > b) std::swap(a, b);
     enter = std::max(enter, a), leave = std::min(leave, b);

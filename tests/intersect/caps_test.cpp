@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/intersect/sphere_reference.h"
@@ -89,7 +90,7 @@ TEST_CASE("A cap is met exactly where the sphere below its rim is", "[hits]") {
           continue;
         }
         // As on the closed families: the ray's way through so many ulps of the sphere, and t's own rounding.
-        const double kappa = 1.0 / (glm::length(ray.direction) * exact.cosine);
+        const double kappa = quotient(1.0, glm::length(ray.direction) * exact.cosine);
         for (std::size_t j = 0; j < expected; ++j)
           place.add(std::fabs(all[j].t - reference[j]), tolerance * (std::fabs(reference[j]) + kappa),
                     describe);

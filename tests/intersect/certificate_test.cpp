@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "renderer/bezier/quotient.h"
 #include "tests/catch.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
@@ -55,7 +56,8 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
       if (!hit || !(first < INFINITY)) continue;
       // The oracle's t is a double: half an ulp of it.
       t.add(std::fabs(hit.t - first), c.t_error + 0x1p-53 * first, describe);
-      radius.add(c.t_error, 1e-9 * (std::fabs(hit.t) + model.radius / glm::length(ray.direction)), describe);
+      radius.add(c.t_error, 1e-9 * (std::fabs(hit.t) + quotient(model.radius, glm::length(ray.direction))),
+                 describe);
     }
   }
   WARN(certified << " certified, " << refused << " not");

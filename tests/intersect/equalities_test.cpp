@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/root.h"
 #include "tests/bezier/random_nets.h"
@@ -235,7 +236,7 @@ void compare(const Subject& subject, const EqualSurface& equal, const Tracer& ol
       const double cosine = std::min(std::fabs(glm::dot(a[j].normal, ray.direction)),
                                      std::fabs(glm::dot(b[j].normal, ray.direction))) /
                             length;
-      const double along = 6.0 * e / cosine,
+      const double along = quotient(6.0 * e, cosine),
                    t_bound = a[j].t_error + b[j].t_error + (e > 0.0 ? along / length : 0.0);
       tally.t.add(std::fabs(a[j].t - b[j].t), t_bound, describe);
       const double apart = t_bound * length + old_band + new_band + e;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/paths.h"
@@ -51,7 +52,7 @@ void check_file(const std::filesystem::path& path, Solver solver, Totals& totals
       const double cosine = std::fabs(glm::dot(hits[k].normal, direction)) / glm::length(direction);
       // 8 ulp on the surface, as in sphere_hits_test; along the ray that is stretched by 1 / cos, at a double
       // root to its square root: 2 sqrt(8 ulp).
-      const double stretch = std::fmin(8.0 * 0x1p-52 / cosine, 2.0 * std::sqrt(8.0 * 0x1p-52));
+      const double stretch = std::fmin(quotient(8.0 * 0x1p-52, cosine), 2.0 * std::sqrt(8.0 * 0x1p-52));
       const double t = expected["t"].get<double>();
       totals.t.add(std::fabs(hits[k].t - t), stretch / glm::length(direction) + 8.0 * 0x1p-52 * std::fabs(t),
                    describe);
