@@ -217,8 +217,10 @@ constexpr double singular = 2e-2;
 constexpr double accurate = 2e-13;  // of the relative error of a cross product
 
 // The cross product of the tangents in units of the net's spread, in which it neither overflows nor
-// underflows.
-dvec3 relative_cross(const Tangents& t, double scale) { return glm::cross(t.a / scale, t.b / scale); }
+// underflows. Zero for a net that is one point.
+dvec3 relative_cross(const Tangents& t, double scale) {
+  return scale > 0.0 ? glm::cross(t.a / scale, t.b / scale) : dvec3(0.0);
+}
 
 // A bound, up to a small factor, on the relative error of the cross product of the tangents at (u, v);
 // infinite where it vanishes.

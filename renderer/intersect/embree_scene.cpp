@@ -30,8 +30,8 @@ struct QueryContext {
 };
 
 struct GeometryData {
+  Handover there, back;           // around the commit
   const std::vector<Box>* boxes;  // the caller's, and read during the commit only
-  Handover* handover;             // likewise
   std::vector<LeafName> names;
   double pad;
   EmbreeScene::Visitor visitor;
@@ -43,13 +43,14 @@ float down(double x) {
 float up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 void bounds_of_leaf(const RTCBoundsFunctionArguments* args) {
-  const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
-  data.handover->take();
+  auto& data = *static_cast<GeometryData*>(args->geometryUserPtr);
+  data.there.take();
   const Box& box = (*data.boxes)[args->primID];
   RTCBounds& out = *args->bounds_o;
   out.lower_x = down(box.low.x - data.pad), out.upper_x = up(box.high.x + data.pad);
   out.lower_y = down(box.low.y - data.pad), out.upper_y = up(box.high.y + data.pad);
   out.lower_z = down(box.low.z - data.pad), out.upper_z = up(box.high.z + data.pad);
+  data.back.give();
 }
 
 void intersect_leaf(const RTCIntersectFunctionNArguments* args) noexcept {
@@ -91,8 +92,16 @@ QueryContext make_context(void* query) {
   return context;
 }
 
+struct Memory {
+  Handover there, back;  // around all that Embree does
+  std::atomic<std::ptrdiff_t> bytes{0};
+};
+
 bool count_memory(void* total, ssize_t bytes, bool) {
-  static_cast<std::atomic<std::ptrdiff_t>*>(total)->fetch_add(bytes, std::memory_order_relaxed);
+  auto& memory = *static_cast<Memory*>(total);
+  memory.there.take();
+  memory.bytes.fetch_add(bytes, std::memory_order_relaxed);
+  memory.back.give();
   return true;
 }
 
@@ -105,7 +114,7 @@ float round_far(double t) {
 }
 
 struct EmbreeScene::Implementation {
-  std::atomic<std::ptrdiff_t> bytes{0};
+  Memory memory;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   GeometryData data;
@@ -113,6 +122,7 @@ struct EmbreeScene::Implementation {
   ~Implementation() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
+    memory.back.take();
   }
 };
 
@@ -123,10 +133,10 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   self.device = rtcNewDevice(settings);
   if (!self.device)
     throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
-  rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.bytes);
+  self.memory.there.give();
+  rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.memory);
   self.scene = rtcNewScene(self.device);
-  Handover handover;
-  self.data = {&boxes, &handover, std::move(names), 0x1p-19 * radius, visitor};
+  self.data = {{}, {}, &boxes, std::move(names), 0x1p-19 * radius, visitor};
   RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, &self.data);
@@ -136,9 +146,10 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(self.scene, geometry);
   rtcReleaseGeometry(geometry);
-  handover.give();
+  self.data.there.give();
   rtcCommitScene(self.scene);
-  self.data.boxes = nullptr, self.data.handover = nullptr;
+  self.data.back.take();
+  self.data.boxes = nullptr;
   if (const RTCError error = rtcGetDeviceError(self.device); error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree: building the hierarchy failed, error " + std::to_string(error));
 }
@@ -179,7 +190,7 @@ bool EmbreeScene::visit_any(const dvec3& origin, const dvec3& direction, double 
 }
 
 std::size_t EmbreeScene::bytes() const {
-  return static_cast<std::size_t>(implementation_->bytes.load()) +
+  return static_cast<std::size_t>(implementation_->memory.bytes.load()) +
          implementation_->data.names.size() * sizeof(LeafName);
 }
 

@@ -137,7 +137,7 @@ class Builder {
 
   // Whether the surface is longer along a than along b.
   static bool longer_across_a(const SecondOrder<dvec4>& s, const Leaf& leaf) {
-    const dvec3 x = dvec3(s.value) / s.value.w;
+    const dvec3 x = s.value.w != 0.0 ? dvec3(s.value) / s.value.w : dvec3(0.0);
     return leaf.edge_a.x * glm::length(dvec3(s.du) - x * s.du.w) >=
            leaf.edge_b.y * glm::length(dvec3(s.dv) - x * s.dv.w);
   }

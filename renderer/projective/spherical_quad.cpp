@@ -79,6 +79,7 @@ QuadShape shape_of(const SphericalQuad& quad, const lvec3& centre) {
 
     const lvec3 p = frame.project(arc.p, 1), q = frame.project(arc.q, 1), b = frame.project(arc.b, arc.w);
     shape.weight[k] = p.z;
+    if (p.z == 0 || q.z == 0) continue;
     // With the corners' weights brought to 1, the middle one is the cosine of half the turn, and the
     // determinant its sine times half the square of the chord.
     const long double root = std::sqrt(p.z * q.z);
