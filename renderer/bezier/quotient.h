@@ -6,7 +6,7 @@ namespace rondure {
 // a / b as IEEE 754 has it: infinite, or no number, where b is zero. For what a minimum then bounds, and for
 // what a comparison refuses that NaN fails. Sanitizers report zero divisors everywhere else.
 template <class T>
-[[gnu::no_sanitize("float-divide-by-zero")]] constexpr T quotient(T a, T b) {
+__attribute__((no_sanitize("float-divide-by-zero"))) constexpr T quotient(T a, T b) {
   return a / b;
 }
 

@@ -73,7 +73,9 @@ void settle_all(const Leaf& leaf, const Net& net, const LocalRay& ray, std::vect
   };
   static thread_local std::vector<Group> groups;
   groups.clear();
-  for (auto& [root, place] : ordered) {
+  for (Candidate& candidate : ordered) {
+    Root& root = candidate.root;
+    const Place& place = candidate.place;
     if (!root.tangent) {
       if (settle(net, leaf.scale, ray, root)) roots.push_back(root);
       continue;

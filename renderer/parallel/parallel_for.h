@@ -16,7 +16,7 @@ struct Task {
   Handover* there;
   const Part* part;
 
-  [[gnu::no_sanitize_thread]] void operator()(const tbb::blocked_range<std::size_t>& range) const {
+  __attribute__((no_sanitize_thread)) void operator()(const tbb::blocked_range<std::size_t>& range) const {
     there->take();
     (*part)(range.begin(), range.end());
   }
