@@ -2,16 +2,14 @@
 // towards the point of contact, where the gap is less than any rounding.
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <array>
-#include <cstdlib>
 #include <random>
 
 #include "renderer/intersect/local_ray.h"
 #include "renderer/shading/direct_light.h"
 #include "tests/catch.h"
+#include "tests/integrators/walk_paths.h"
 #include "tests/intersect/closed_models.h"
 #include "tests/intersect/ellipsoid_chord.h"
 #include "tests/intersect/random_direction.h"
@@ -266,15 +264,8 @@ std::vector<Pair> pairs() {
   return out;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double effort = 0.05;
-#else
-constexpr double effort = 1.0;
-#endif
-
 TEST_CASE("Paths between mirrors that touch pass neither", "[once][integrators]") {
-  const char* const soak = std::getenv("RONDURE_SOAK");  // a number: that part of it
-  const double wanted = soak ? 1e8 * std::clamp(std::atof(soak), 0.001, 1.0) : effort * 1e4;
+  const double wanted = wanted_paths(1e4, 0.001);
   const std::vector<Pair> all = pairs();
   double shares = 0.0;
   for (const Pair& pair : all) shares += pair.share;
@@ -284,14 +275,7 @@ TEST_CASE("Paths between mirrors that touch pass neither", "[once][integrators]"
     const StagedScene scene(scene_of(pair));
     const Walk walk(pair, scene);
     const auto paths = static_cast<std::uint32_t>(wanted * pair.share / shares);
-    const std::uint64_t here = seed++;
-    tally.merge(tbb::parallel_reduce(
-        tbb::blocked_range<std::uint32_t>(0, paths, 50), Tally{},
-        [&](const tbb::blocked_range<std::uint32_t>& range, Tally part) {
-          for (std::uint32_t k = range.begin(); k < range.end(); ++k) walk.walk(here, k, part);
-          return part;
-        },
-        [](Tally a, const Tally& b) { return a.merge(b), a; }));
+    tally.merge(walk_paths<Tally>(walk, seed++, paths, 50));
   }
   WARN(fmt::format(
       "{} paths, {} bounces, of which {} within rounding of the other wall; {} paths not out after {}",

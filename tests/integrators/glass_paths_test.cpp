@@ -2,11 +2,8 @@
 // where the ellipsoid ends it, no path loses its side, and none its light.
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <array>
-#include <cstdlib>
 #include <memory>
 #include <random>
 
@@ -17,6 +14,7 @@
 #include "tests/catch.h"
 #include "tests/integrators/glass_bodies.h"
 #include "tests/integrators/transmission.h"
+#include "tests/integrators/walk_paths.h"
 #include "tests/intersect/closed_models.h"
 #include "tests/intersect/ellipsoid_chord.h"
 #include "tests/intersect/random_direction.h"
@@ -242,16 +240,9 @@ class Walk {
   }
 };
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double effort = 0.05;
-#else
-constexpr double effort = 1.0;
-#endif
-
 TEST_CASE("Paths in tiled glass keep their side and their light", "[once][integrators]") {
   // In all; a body met by clipping gets a twentieth.
-  const char* const soak = std::getenv("RONDURE_SOAK");  // a number: that part of it
-  const double wanted = soak ? 1e8 * std::clamp(std::atof(soak), 0.01, 1.0) : effort * 1.2e5;
+  const double wanted = wanted_paths(1.2e5, 0.01);
   const std::vector<Body> all = glass_bodies();
   Tally tally;
   std::uint64_t seed = 1;
@@ -260,14 +251,7 @@ TEST_CASE("Paths in tiled glass keep their side and their light", "[once][integr
     const Walk walk(body, scene);
     const double share = std::string(body.solver) == "clipping" ? 0.05 : 1.0;
     const auto paths = static_cast<std::uint32_t>(share * wanted / (static_cast<double>(all.size()) - 0.95));
-    const std::uint64_t here = seed++;
-    tally.merge(tbb::parallel_reduce(
-        tbb::blocked_range<std::uint32_t>(0, paths, 500), Tally{},
-        [&](const tbb::blocked_range<std::uint32_t>& range, Tally part) {
-          for (std::uint32_t k = range.begin(); k < range.end(); ++k) walk.walk(here, k, part);
-          return part;
-        },
-        [](Tally a, const Tally& b) { return a.merge(b), a; }));
+    tally.merge(walk_paths<Tally>(walk, seed++, paths, 500));
   }
   std::string text;
   long paths = 0;
