@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/bezier/normal.h"
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/leaf.h"
@@ -19,11 +20,13 @@ inline double radius_along(const Net& net, const Root& root, const dvec3& direct
   const SurfaceJet jet = surface_jet(net, root.u, root.v);
   const double uu = glm::dot(jet.du, jet.du), uv = glm::dot(jet.du, jet.dv), vv = glm::dot(jet.dv, jet.dv);
   const double du = glm::dot(jet.du, direction), dv = glm::dot(jet.dv, direction), det = uu * vv - uv * uv;
-  const double a = (vv * du - uv * dv) / det, b = (uu * dv - uv * du) / det;
+  // At a singular point, and on a flat patch, divisors are zero; what comes of it is never above `extent`, or
+  // infinite and then cut to `most`.
+  const double a = quotient(vv * du - uv * dv, det), b = quotient(uu * dv - uv * du, det);
   const dvec3 bend = a * a * jet.duu + 2.0 * a * b * jet.duv + b * b * jet.dvv;
-  const double out = glm::dot(bend, glm::cross(jet.du, jet.dv)) / std::sqrt(det);
-  const double radius = glm::dot(direction, direction) / std::fabs(out), most = 8.0 * extent * extent / error;
-  // At a singular point nothing of this is a number.
+  const double out = quotient(glm::dot(bend, glm::cross(jet.du, jet.dv)), std::sqrt(det));
+  const double radius = quotient(glm::dot(direction, direction), std::fabs(out));
+  const double most = 8.0 * extent * extent / error;
   return radius > extent ? std::fmin(radius, most) : extent;
 }
 
