@@ -17,18 +17,18 @@ struct Crossing {
 // `point` and the unnormalised `normal` in the surface's frame; `error`: how far, at right angles to the ray,
 // the point may be off; `extent`: the size of the surface, as its radius of curvature where it matters.
 //
-// A root moves along the ray by error / cos(theta); near tangency the ray leaves the surface quadratically,
-// which bounds the same shift by sqrt(2 error extent).
+// A root moves along the ray by error / cos(theta), cos(theta) being |normal . direction| over both lengths;
+// near tangency the ray leaves the surface quadratically, which bounds the same shift by sqrt(2 error
+// extent).
 inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dvec3& normal, double error,
                               double extent, bool tangent) {
   Crossing c;
-  c.s = glm::dot(point - ray.base, ray.direction) / ray.length2;
-  const double along = glm::dot(normal, ray.direction), length = std::sqrt(ray.length2);
-  const double cosine = std::fabs(along) / (glm::length(normal) * length);
-  const double quadratic = std::sqrt(2.0 * error * extent);
-  const double shift =
-      error < quadratic * cosine ? error / cosine : quadratic;  // also when the normal vanishes
-  c.s_error = 2.0 * shift / length + 0x1p-52 * std::fabs(ray.slide + c.s);
+  c.s = glm::dot(point - ray.base, ray.direction) * ray.inverse_length2;
+  const double along = glm::dot(normal, ray.direction);
+  const double straight = error * glm::length(normal) / std::fabs(along);
+  const double quadratic = std::sqrt(2.0 * error * extent * ray.inverse_length2);
+  const double shift = straight < quadratic ? straight : quadratic;  // also when the normal vanishes
+  c.s_error = 2.0 * shift + 0x1p-52 * std::fabs(ray.slide + c.s);
   c.extent = extent;
   c.likely = along > 0.0 ? 1 : along < 0.0 ? -1 : 0;
   c.sign = tangent ? 0 : c.likely;

@@ -23,29 +23,31 @@ Hierarchy::Hierarchy(const dvec3& center, std::vector<Box> boxes, std::vector<Le
     throw std::runtime_error(fmt::format("the scene is too {}: its radius must be between {:g} and {:g}",
                                          radius_ < smallest_scene ? "small" : "large", smallest_scene,
                                          largest_scene));
-  unit_ = std::ldexp(1.0, -std::ilogb(radius_));
+  unit_ = std::ldexp(1.0, -std::ilogb(radius_)), inverse_unit_ = 1.0 / unit_;
   for (Box& box : boxes) box.low *= unit_, box.high *= unit_;
   embree_ = std::make_unique<EmbreeScene>(boxes, std::move(names), radius_ * unit_, visitor);
 }
 
-bool Hierarchy::enter(const LocalRay& local, const dvec3& center, double t_min, double t_max,
+bool Hierarchy::enter(const LocalRay& local, double t_min, double t_max, Entry& entry) const {
+  const dvec3 base = (local.base - center_) * unit_;
+  const double shift = -glm::dot(base, local.direction) * local.inverse_length2;
+  return enter(local, base + shift * local.direction, local.slide * unit_ + shift, t_min, t_max, entry);
+}
+
+bool Hierarchy::enter(const LocalRay& local, const dvec3& base, double slide, double t_min, double t_max,
                       Entry& entry) const {
-  const dvec3& d = local.direction;
-  dvec3 base = (local.base - center) * unit_;
-  const double shift = -glm::dot(base, d) / local.length2;
-  base += shift * d;
-  const double slide = local.slide * unit_ + shift;
   const double b2 = glm::dot(base, base), r = radius_ * unit_ * (1.0 + 1e-9);
   if (!(b2 <= r * r)) return false;
-  const double half = std::sqrt((r * r - b2) / local.length2);
-  const double start = t_min / local.scale * unit_ - slide, end = t_max / local.scale * unit_ - slide;
+  const double half = std::sqrt((r * r - b2) * local.inverse_length2);
+  const double start = t_min * local.inverse_scale * unit_ - slide,
+               end = t_max * local.inverse_scale * unit_ - slide;
   // A start on a surface may lie an error bound behind the first root that counts.
   const double near = std::max(start - 1e-9 * half, -half);
   if (!(near <= half) || !(end >= near)) return false;
-  entry.origin = base + near * d;
+  entry.origin = base + near * local.direction;
   entry.far = std::min(half, end) - near;
-  entry.far_origin = (slide + near) / unit_ * local.scale;
-  entry.far_scale = local.scale / unit_;
+  entry.far_origin = (slide + near) * inverse_unit_ * local.scale;
+  entry.far_rate = unit_ * local.inverse_scale;
   return true;
 }
 

@@ -6,14 +6,14 @@
 
 namespace rondure {
 
-// Where a ray enters a hierarchy, and how the traversal's t are the ray's: t = far_origin + far far_scale.
+// Where a ray enters a hierarchy, and how the traversal's t are the ray's: far = (t - far_origin) far_rate.
 struct Entry {
   dvec3 origin{0.0};
   double far = 0.0;
-  double far_origin = 0.0, far_scale = 1.0;
+  double far_origin = 0.0, far_rate = 1.0;
 
   // The traversal's t from the ray's, rounded up.
-  float round_far(double t) const { return rondure::round_far((t - far_origin) / far_scale); }
+  float round_far(double t) const { return rondure::round_far((t - far_origin) * far_rate); }
 };
 
 class Hierarchy {
@@ -25,12 +25,10 @@ class Hierarchy {
 
   // Where the ray, `local` in the frame, enters the bounding sphere. False when it misses it within [t_min,
   // t_max].
-  bool enter(const LocalRay& local, double t_min, double t_max, Entry& entry) const {
-    return enter(local, center_, t_min, t_max, entry);
-  }
+  bool enter(const LocalRay& local, double t_min, double t_max, Entry& entry) const;
   // The same of a ray that is local about the centre.
   bool enter_at_center(const LocalRay& local, double t_min, double t_max, Entry& entry) const {
-    return enter(local, dvec3(0.0), t_min, t_max, entry);
+    return enter(local, local.base * unit_, local.slide * unit_, t_min, t_max, entry);
   }
   void visit_all(const LocalRay& local, const Entry& entry, void* query) const noexcept {
     embree_->visit_all(entry.origin, local.direction, entry.far, query);
@@ -46,10 +44,13 @@ class Hierarchy {
  private:
   dvec3 center_{0.0};
   double radius_ = 0.0;
-  double unit_ = 1.0;  // power of two that brings the radius to [1, 2): what the traversal sees
+  // Power of two that brings the radius to [1, 2): what the traversal sees.
+  double unit_ = 1.0, inverse_unit_ = 1.0;
   std::unique_ptr<EmbreeScene> embree_;
 
-  bool enter(const LocalRay& local, const dvec3& center, double t_min, double t_max, Entry& entry) const;
+  // `base`: the point of the ray nearest to the centre, and `slide` its t, in units of the traversal.
+  bool enter(const LocalRay& local, const dvec3& base, double slide, double t_min, double t_max,
+             Entry& entry) const;
 };
 
 }  // namespace rondure

@@ -23,8 +23,9 @@ struct LocalRay {
   dvec3 base{0.0};       // point of the ray nearest to the frame's zero, to within an ulp of |base|
   dvec3 direction{0.0};  // the ray's direction times a power of two: largest component in [1, 2)
   double slide = 0.0;    // t (in units of `direction`) of `base`
-  double scale = 1.0;    // t of the ray = (slide + s) * scale
+  double scale = 1.0;    // t of the ray = (slide + s) * scale, a power of two
   double length2 = 1.0;  // direction . direction
+  double inverse_scale = 1.0, inverse_length2 = 1.0;
   // Unit normals of two planes that meet in the ray, and minus their distances: plane . (x, 1) = 0 on the
   // ray.
   dvec4 plane[2];
@@ -44,23 +45,24 @@ inline double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-// Sets direction, scale and length2. False when the direction is not finite or zero: such a ray meets
-// nothing.
+// Sets direction, scale, length2 and their inverses. False when the direction is not finite or zero: such a
+// ray meets nothing.
 inline bool set_direction(const dvec3& direction, LocalRay& ray) {
   const double size = largest(direction);
   if (!(size > 0.0) || !is_finite(direction)) return false;
   const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(size) >> 52);
   if (biased > 23 && biased < 2023) {
-    ray.scale = power_of_two(1023 - biased);
+    ray.scale = power_of_two(1023 - biased), ray.inverse_scale = power_of_two(biased - 1023);
     ray.direction = direction * ray.scale;
   } else {
     // Two steps, so that neither factor overflows for denormal directions.
     const int exponent = std::ilogb(size);
     const double half = power_of_two(-(exponent / 2)), rest = power_of_two(-(exponent - exponent / 2));
     ray.direction = direction * half * rest;
-    ray.scale = half * rest;
+    ray.scale = half * rest, ray.inverse_scale = 1.0 / ray.scale;
   }
   ray.length2 = glm::dot(ray.direction, ray.direction);
+  ray.inverse_length2 = 1.0 / ray.length2;
   return true;
 }
 
@@ -89,7 +91,7 @@ inline bool set_base(const dvec3& origin, const dvec3& frame, LocalRay& ray) {
 inline void set_normals(LocalRay& ray) {
   // Any frame across d does; this one has no branch that could send nearly equal rays to distant frames but
   // for the sign of d.z (Duff et al. 2017).
-  const dvec3 unit = ray.direction / std::sqrt(ray.length2);
+  const dvec3 unit = ray.direction * (1.0 / std::sqrt(ray.length2));
   const double sign = std::copysign(1.0, unit.z), a = -1.0 / (sign + unit.z), b = unit.x * unit.y * a;
   ray.plane[0] = dvec4(1.0 + sign * unit.x * unit.x * a, sign * b, -sign * unit.x, 0.0);
   ray.plane[1] = dvec4(b, sign + unit.y * unit.y * a, -unit.y, 0.0);

@@ -138,7 +138,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
 }
 
 bool localise(Query& q, unsigned surface) {
-  if (q.local_surface != surface) {
+  if (q.local_surface != surface && q.local_surface != Query::every_surface) {
     q.local_surface = surface;
     q.local_valid = set_base(q.ray->origin, q.origins[surface], q.local);
     q.has_distances = false;
@@ -168,7 +168,6 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
 void make_planes(Query& q) {
   if (!q.has_normals) {
     set_normals(q.local);
-    q.inverse_direction = inverse_of(q.local.direction);
     q.has_normals = true;
   }
   set_distances(q.local);
@@ -195,7 +194,7 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
   }
   // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
   // every ray by; in double the leaf's own box does not.
-  if (!meets_box(q.local, q.inverse_direction, compiled.set.boxes[leaf_index])) return false;
+  if (!meets_box(q.local, inverse_of(q.local.direction), compiled.set.boxes[leaf_index])) return false;
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
   roots.clear();
   if (leaf_index >= ordinary)

@@ -47,10 +47,10 @@ struct Query {
   unsigned instance = 0;  // whose hierarchy that is, if it is not the scene's
   // The ray's local forms: the direction is the same in all, the base changes with the surface.
   LocalRay local{};
-  unsigned local_surface = ~0u;
+  static constexpr unsigned every_surface = ~0u, no_surface = ~1u;
+  unsigned local_surface = no_surface;  // in whose frame the base is
   bool local_valid = false;
   bool has_normals = false, has_distances = false;
-  dvec3 inverse_direction{0.0};  // with the normals
   Hit best{};
   FirstOrder<dvec4> best_first{};  // the patch at `best`, where the normal is still to come from it
   bool needs_normal = false;

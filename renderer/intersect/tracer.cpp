@@ -22,6 +22,7 @@ struct Tracer::Implementation {
   std::vector<dvec3> origins;
   std::size_t leaf_count = 0;
   std::unique_ptr<Hierarchy> hierarchy;
+  bool one_frame = false;  // the surfaces' origins are all at the hierarchy's centre
 
   std::vector<LeafName> few;          // of so few leaves that no hierarchy pays
   std::optional<SphereTarget> alone;  // where that is all
@@ -35,11 +36,13 @@ struct Tracer::Implementation {
         if (visit_leaf(q, name.surface, name.leaf, far)) return true;
       return false;
     }
-    LocalRay global = q.local;
-    if (!set_base(q.ray->origin, hierarchy->center(), global)) return false;
-    if (!hierarchy->enter_at_center(global, q.ray->t_min, q.ray->t_max, q.entry)) return false;
-    if (q.mode == Mode::any) return hierarchy->visit_any(global, q.entry, &q);
-    hierarchy->visit_all(global, q.entry, &q);
+    if (one_frame) q.local_surface = Query::every_surface, q.local_valid = true;
+    LocalRay other;
+    LocalRay& about_center = one_frame ? q.local : (other = q.local);
+    if (!set_base(q.ray->origin, hierarchy->center(), about_center)) return false;
+    if (!hierarchy->enter_at_center(about_center, q.ray->t_min, q.ray->t_max, q.entry)) return false;
+    if (q.mode == Mode::any) return hierarchy->visit_any(q.local, q.entry, &q);
+    hierarchy->visit_all(q.local, q.entry, &q);
     return false;
   }
 
@@ -118,7 +121,13 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     if (twins[k] == k) self.leaf_count += self.compiled[k]->set.boxes.size();
   }
   if (world.empty()) return;
-  const dvec3 center = world.center();
+  // A common origin that is in the middle, or nearly, spares each ray a second local form.
+  dvec3 center = world.center();
+  const dvec3 common = self.origins.front();
+  const bool all_there =
+      std::all_of(self.origins.begin(), self.origins.end(), [&](const dvec3& o) { return o == common; });
+  self.one_frame = all_there && glm::distance(common, center) < 0x1p-4 * glm::distance(world.low, world.high);
+  if (self.one_frame) center = common;
   std::vector<Box> boxes;
   std::vector<LeafName> names;
   for (unsigned k = 0; k < count; ++k) {
