@@ -25,9 +25,9 @@ inline Crossing make_crossing(const LocalRay& ray, const dvec3& point, const dve
   Crossing c;
   c.s = glm::dot(point - ray.base, ray.direction) * ray.inverse_length2;
   const double along = glm::dot(normal, ray.direction);
-  const double straight = error * glm::length(normal) / std::fabs(along);
+  const double straight = quotient(error * glm::length(normal), std::fabs(along));
   const double quadratic = std::sqrt(2.0 * error * extent * ray.inverse_length2);
-  const double shift = straight < quadratic ? straight : quadratic;  // also when the normal vanishes
+  const double shift = straight < quadratic ? straight : quadratic;  // also where the normal vanishes
   c.s_error = 2.0 * shift + 0x1p-52 * std::fabs(ray.slide + c.s);
   c.extent = extent;
   c.likely = along > 0.0 ? 1 : along < 0.0 ? -1 : 0;
