@@ -140,33 +140,32 @@ std::optional<Map> fit_ellipsoid(const std::vector<lvec3>& points) {
   return Map{map, place};
 }
 
+// Bernstein coefficients of |x|^2 - w^2 against those of w^2, one by one: the quotient of both polynomials is
+// a mean of theirs, with positive weights. (The smallest weight's square in the place of all would ask more,
+// by the square of the ratio of the weights, where the patch is no more exact.)
 template <class Polynomial>
-bool satisfies(const Polynomial& image, long double least_weight, long double distance) {
+bool satisfies(const Polynomial& image, long double distance) {
   const auto defect = multiply(image, image, [](const lvec4& p, const lvec4& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z - p.w * q.w;
   });
-  const long double limit =
-      ellipsoid_roundoffs * unit_roundoff * least_weight * least_weight * (1 + distance);
-  for (const long double d : defect.coefficients)
-    if (!(std::abs(d) <= limit)) return false;
+  const auto square = multiply(image, image, [](const lvec4& p, const lvec4& q) { return p.w * q.w; });
+  const long double limit = ellipsoid_roundoffs * unit_roundoff * (1 + distance);
+  for (std::size_t k = 0; k < defect.coefficients.size(); ++k)
+    if (!(std::abs(defect.coefficients[k]) <= limit * square.coefficients[k])) return false;
   return true;
 }
 
+// Of a net with positive weights.
 bool lies_on(const Net& net, const EllipsoidFit& fit) {
   const lmat3 inverse = glm::inverse(lmat3(fit.linear));
   const lvec3 center(fit.center);
   std::vector<lvec4> image;
-  long double least = INFINITY;
-  for (const dvec4& p : points_of(net)) {
+  for (const dvec4& p : points_of(net))
     image.push_back(lvec4(inverse * (lvec3(p) - center * static_cast<long double>(p.w)), p.w));
-    least = std::min(least, static_cast<long double>(p.w));
-  }
-  if (!(least > 0)) return false;
   const long double distance = glm::length(inverse * center);
   if (const auto* tensor = std::get_if<TensorNet>(&net))
-    return satisfies(TensorPolynomial<lvec4>(tensor->m, tensor->n, std::move(image)), least, distance);
-  return satisfies(TrianglePolynomial<lvec4>(std::get<TriangleNet>(net).n, std::move(image)), least,
-                   distance);
+    return satisfies(TensorPolynomial<lvec4>(tensor->m, tensor->n, std::move(image)), distance);
+  return satisfies(TrianglePolynomial<lvec4>(std::get<TriangleNet>(net).n, std::move(image)), distance);
 }
 
 // Of these patches alone.

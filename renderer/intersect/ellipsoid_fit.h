@@ -23,7 +23,9 @@ std::vector<EllipsoidFit> fit_ellipsoids(const std::vector<Net>& patches);
 // Bound on |x|^2 / w^2 - 1 over an accepted patch, in units of roundoff times 1 + (distance of the frame's
 // zero from the center, in semi-axes), as coordinates are rounded at their own size: how far the patch is
 // from the ellipsoid is half as much, relative to the semi-axes. A net rounded to doubles has 2 or 3 of its
-// own on each of two factors, times the square of the ratio of its weights.
+// own on each of two factors, times |P| / w of its control points, which are not much more than 1 on most
+// patches; turning or stretching it rounds as often again, and the matrix that did so. (Of hemispheres, one
+// turn of 60 is refused, with 37.)
 inline constexpr double ellipsoid_roundoffs = 24.0;
 
 }  // namespace rondure

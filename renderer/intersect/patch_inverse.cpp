@@ -117,6 +117,18 @@ bool fits(const PatchInverse& inverse, const Net& net) {
   return true;
 }
 
+void spread_out(PatchInverse& inverse) {
+  const auto size = static_cast<std::size_t>(inverse.degree + 1), lanes = inverse.spread_lanes();
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < size; ++j) {
+      const double* c = &inverse.coefficients[4 * (i * size + j)];
+      const double factors[3][2] = {{c[0], c[1]}, {c[2], c[3]}, {c[3], -c[2]}};
+      for (std::size_t which = 0; which < 3; ++which)
+        for (std::size_t part = 0; part < 2; ++part)
+          inverse.spread[(which * size + j) * lanes + 2 * i + part] = factors[which][part];
+    }
+}
+
 // Brings the coefficients to size 1, and tells what is usual in the patch: the inverse derivatives in its
 // middle. False when the coefficients are zero or no numbers.
 bool normalise(PatchInverse& inverse) {
@@ -134,6 +146,7 @@ bool normalise(PatchInverse& inverse) {
   const double r = 1.0 / (fu.x * fv.y - fu.y * fv.x);
   constexpr double steeper = 16.0;
   inverse.steepest2 = steeper * steeper * r * r * (glm::dot(fu, fu) + glm::dot(fv, fv));
+  spread_out(inverse);
   return true;
 }
 

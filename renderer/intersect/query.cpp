@@ -16,16 +16,17 @@ namespace {
 
 constexpr std::size_t cells_per_query = 1 << 15;
 
-// Whether the crossing is a hit, in the query's ray, of `surface`; `t` receives its place.
-bool is_hit(const Query& q, unsigned surface, const Crossing& c, double& t) {
+// Whether the crossing is a hit, in the query's ray (`local` in some frame), of `surface`; `t` receives its
+// place.
+bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, double& t) {
   const dvec3& frame = q.origins[surface];
-  if (accept(*q.ray, q.local, static_cast<int>(surface), frame, c, t)) return true;
+  if (accept(*q.ray, local, static_cast<int>(surface), frame, c, t)) return true;
   const int start = q.ray->start.surface;
   if (start < 0 || start == static_cast<int>(surface) || !q.compiled[surface]->closed) return false;
   const CompiledSurface& left = *q.compiled[start];
   if (!left.closed) return false;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
-  return accept_at_contact(*q.ray, q.local, frame, size, c, t);
+  return accept_at_contact(*q.ray, local, frame, size, c, t);
 }
 
 enum class Taken { no, noted, nearest, settled };
@@ -37,7 +38,7 @@ Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, 
            const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = q.origins[surface];
-  if (!is_hit(q, surface, c, hit.t)) return Taken::no;
+  if (!is_hit(q, surface, q.local, c, hit.t)) return Taken::no;
   if (q.mode == Mode::any) return Taken::settled;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
@@ -79,23 +80,25 @@ bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, flo
   return false;
 }
 
-// The two roots, entering first. The parameters are asked for only where a hit is the closest so far.
+// The two roots, entering first. The parameters are asked for only where a hit is the closest so far, or as
+// close: which of those counts does not depend on the order.
 bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float& far) {
-  SphereRoots roots;
-  if (!meet_sphere(sphere, q.local, roots)) return false;
   const dvec3& frame = q.origins[surface];
+  SphereRoots roots;
+  LocalRay local = q.local;
+  if (!meet_sphere(sphere, q.ray->origin, frame, local, roots)) return false;
   const std::vector<Net>& nets = *q.compiled[surface]->nets;
   const Ellipsoid& e = sphere.ellipsoid;
   const double error = ellipsoid_error(e), grazing = std::sqrt(2.0 * error * e.extent);
   for (const int side : {-1, 1}) {
-    const dvec3 n = sphere_point(roots, side);
+    const SpherePoint at = sphere_point(roots, side);
+    const dvec3& n = at.n;
     // make_crossing's bound: error / cosine along the ray, and length times cosine is |n . d| / |normal|.
-    const double normal_length =
-        sphere.inverse_radius > 0.0 ? sphere.inverse_radius : glm::length(n * e.inverse);
+    const double stretch = sphere.inverse_radius > 0.0 ? e.uniform_radius : glm::length(n * e.inverse);
     Crossing c;
     c.s = roots.middle + side * roots.half;
-    c.s_error = 2.0 * std::min(quotient(error * normal_length * roots.inverse_length2, roots.half), grazing) +
-                0x1p-52 * std::fabs(q.local.slide + c.s);
+    c.s_error = 2.0 * std::min(quotient(error * stretch * roots.inverse_length2, roots.half), grazing) +
+                0x1p-52 * std::fabs(local.slide + c.s);
     c.extent = e.extent;
     const Reach reach{roots.direction, c.s_error};
     const int leaving = roots.half > 0.0 ? side : 0;
@@ -104,19 +107,19 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
     std::optional<PlaceOnSphere> place;
     // Which way the ray crosses has to be known where it starts on the surface.
     if (sphere.outward == 0.0 && q.ray->start.surface == static_cast<int>(surface)) {
-      place = place_on_sphere(sphere, nets, n, reach);
+      place = place_on_sphere(sphere, nets, at, reach);
       if (!place) continue;
       c.sign = place->outward < 0.0 ? -leaving : leaving;
     }
-    if (!is_hit(q, surface, c, hit.t)) continue;
+    if (!is_hit(q, surface, local, c, hit.t)) continue;
     if (q.mode == Mode::any) {
-      if (place || covers(sphere, nets, n, reach)) return true;
+      if (place || covers(sphere, nets, at, reach)) return true;
       continue;
     }
     if (q.mode == Mode::closest && q.best && hit.t > q.best.t) return false;
-    if (!place) place = place_on_sphere(sphere, nets, n, reach);
+    if (!place) place = place_on_sphere(sphere, nets, at, reach);
     if (!place) continue;
-    hit.t_error = c.s_error * q.local.scale;
+    hit.t_error = c.s_error * local.scale;
     hit.surface = static_cast<int>(surface), hit.patch = place->patch;
     hit.u = place->u, hit.v = place->v;
     hit.point = frame + (sphere.center + (sphere.inverse_radius > 0.0 ? e.uniform_radius * n : e.linear * n));
@@ -132,7 +135,6 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       q.best = hit, q.needs_normal = false;
       far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
     }
-    return false;
   }
   return false;
 }
@@ -217,11 +219,11 @@ bool nearer(const Hit& a, const Hit& b) {
 }
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
-  if (!localise(q, surface)) return false;
   const CompiledSurface& compiled = *q.compiled[surface];
-  if (compiled.ellipsoid) return visit_ellipsoid(q, surface, *compiled.ellipsoid, far);
-  if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves)
+  if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves && !compiled.ellipsoid)
     return visit_sphere(q, surface, compiled.spheres[leaf - leaves], far);
+  if (!localise(q, surface)) return false;
+  if (compiled.ellipsoid) return visit_ellipsoid(q, surface, *compiled.ellipsoid, far);
   return visit_net(q, surface, leaf, far);
 }
 

@@ -8,8 +8,8 @@ namespace rondure {
 // Sets cells and candidates, of patches and inverses that are known.
 //
 // A cell that no side of a patch comes near (sides are bounded by their control points) lies wholly inside a
-// patch, or outside: the patch that holds its middle owns it. All others get candidates: whose sides come
-// near, and whose interior was seen there or next to it.
+// patch, or outside: the patch that holds one of its points owns it. All others get candidates: whose sides
+// come near, and whose interior was seen there. Nothing is missed of patches that do not overlap.
 void fill_sphere_cells(const std::vector<Net>& nets, SpherePatches& out);
 
 }  // namespace rondure

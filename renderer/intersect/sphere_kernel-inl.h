@@ -3,32 +3,25 @@
 // inside the namespace (and under the instruction set) that uses it, as often as there are such; hence no
 // guard and no include. `lift` makes a V of a number.
 
-// The line against the unit sphere: from `base` along `direction`, roots at middle -+ half.
+// A line against a sphere about zero, from the point (x, y, z) that is nearest to it but for rounding: roots
+// at middle -+ half, half being the square root of rest / direction . direction. `rest`: the squared radius
+// less the line's squared distance, negative where the line misses.
 template <class V>
 struct SphereChord {
-  V x, y, z;          // the point nearest to the centre
-  V dx, dy, dz;       // direction
-  V middle, rest;     // the point's place, and 1 - its square: negative where the line misses
-  V inverse_length2;  // 1 / direction . direction
+  V middle, rest;
 };
 
-// About the point nearest to the centre the quadratic has no linear term, and its discriminant no
-// cancellation.
+// So near the middle the quadratic's discriminant has no cancellation. `inverse_length2`: of the direction.
 template <class V, class Lift>
-[[gnu::always_inline]] inline SphereChord<V> chord_of(V ox, V oy, V oz, V dx, V dy, V dz, Lift lift) {
-  SphereChord<V> c;
-  c.dx = dx, c.dy = dy, c.dz = dz;
-  c.inverse_length2 = lift(1.0) / ((dx * dx + dy * dy) + dz * dz);
-  c.middle = (lift(0.0) - ((ox * dx + oy * dy) + oz * dz)) * c.inverse_length2;
-  c.x = ox + c.middle * dx, c.y = oy + c.middle * dy, c.z = oz + c.middle * dz;
-  c.rest = lift(1.0) - ((c.x * c.x + c.y * c.y) + c.z * c.z);
-  return c;
+[[gnu::always_inline]] inline SphereChord<V> chord_of(V x, V y, V z, V dx, V dy, V dz, V inverse_length2,
+                                                      V radius2, Lift lift) {
+  const V back = lift(0.0) - ((x * dx + y * dy) + z * dz), middle = back * inverse_length2;
+  return {middle, (radius2 - ((x * x + y * y) + z * z)) + back * middle};
 }
 
-// The point `half` on (or back, where that is negative), brought to the sphere by half a Newton step.
+// Brings a point to the unit sphere by half a Newton step.
 template <class V, class Lift>
-[[gnu::always_inline]] inline void point_at(const SphereChord<V>& c, V half, V& x, V& y, V& z, Lift lift) {
-  x = c.x + half * c.dx, y = c.y + half * c.dy, z = c.z + half * c.dz;
+[[gnu::always_inline]] inline void settle_point(V& x, V& y, V& z, Lift lift) {
   const V off = (lift(1.0) - ((x * x + y * y) + z * z)) * lift(0.5);
   x = x + off * x, y = y + off * y, z = z + off * z;
 }
@@ -48,53 +41,56 @@ template <int K, class V, class Lift>
   }
 }
 
-// A step of Newton's method with the derivatives at (u, v), and one more with the same. The lengths of both
-// come back: their product bounds what is left, to a factor of the order of the curvature.
-// `steep2`: the square of the most by which an error of the residual moves (u, v).
+// How far a step went.
+template <class V>
+struct Stride {
+  V first2, second2;  // squared lengths of its two parts
+  V steep2;           // the square of the most by which an error of the residual moves (u, v)
+};
+
+// A step of Newton's method, and what the second derivatives add to it (Chebyshev's method): what is left is
+// of the third order. The product of the lengths of both parts bounds it, to a factor of the order of the
+// curvature.
 template <int K, class V, class Lift>
-[[gnu::always_inline]] inline void two_steps(const Residual<K, V>& c, V& u, V& v, V& first2, V& second2,
-                                             V& steep2, Lift lift) {
+[[gnu::always_inline]] inline Stride<V> step_towards_zero(const Residual<K, V>& c, V& u, V& v, Lift lift) {
   constexpr int width = K + 1;
-  V f[2], fu[2], fv[2];
+  // The value, its derivatives, and half of the second ones along u and along v.
+  V f[2], fu[2], fv[2], fuu[2], fuv[2], fvv[2];
   for (int part = 0; part < 2; ++part) {
-    const V* p = part == 0 ? c.re : c.im;
-    V rows[width], slopes[width];
+    V rows[width], slopes[width], bends[width];
     for (int i = 0; i < width; ++i) {
-      V row = p[i * width + K], slope = row;
-      row = row * v + p[i * width + K - 1];
-      for (int j = K - 2; j >= 0; --j) {
+      const V* p = (part == 0 ? c.re : c.im) + i * width;
+      V row = p[K] * v + p[K - 1], slope = p[K] * v + row, bend = p[K];
+      row = row * v + p[K - 2];
+      for (int j = K - 3; j >= 0; --j) {
+        bend = bend * v + slope;
         slope = slope * v + row;
-        row = row * v + p[i * width + j];
+        row = row * v + p[j];
       }
-      rows[i] = row, slopes[i] = slope;
+      rows[i] = row, slopes[i] = slope, bends[i] = bend;
     }
-    V value = rows[K], along = value, across = slopes[K];
-    value = value * u + rows[K - 1];
-    across = across * u + slopes[K - 1];
-    for (int i = K - 2; i >= 0; --i) {
-      along = along * u + value;
-      value = value * u + rows[i];
+    V value = rows[K] * u + rows[K - 1], along = rows[K] * u + value, curve = rows[K];
+    V across = slopes[K] * u + slopes[K - 1], twist = slopes[K], sag = bends[K] * u + bends[K - 1];
+    value = value * u + rows[K - 2];
+    for (int i = K - 2;; --i) {
+      twist = twist * u + across;
       across = across * u + slopes[i];
+      sag = sag * u + bends[i];
+      if (i == 0) break;
+      curve = curve * u + along;
+      along = along * u + value;
+      value = value * u + rows[i - 1];
     }
     f[part] = value, fu[part] = along, fv[part] = across;
+    fuu[part] = curve, fuv[part] = twist, fvv[part] = sag;
   }
   const V r = lift(1.0) / (fu[0] * fv[1] - fu[1] * fv[0]);
   const V move_u = r * (fv[1] * f[0] - fv[0] * f[1]), move_v = r * (fu[0] * f[1] - fu[1] * f[0]);
-  u = u - move_u, v = v - move_v;
-  const V along2 = fu[0] * fu[0] + fu[1] * fu[1], across2 = fv[0] * fv[0] + fv[1] * fv[1];
-  steep2 = r * r * (along2 + across2);
-  first2 = move_u * move_u + move_v * move_v;
-  for (int part = 0; part < 2; ++part) {
-    const V* p = part == 0 ? c.re : c.im;
-    V value = lift(0.0);
-    for (int i = K; i >= 0; --i) {
-      V row = p[i * width + K];
-      for (int j = K - 1; j >= 0; --j) row = row * v + p[i * width + j];
-      value = i == K ? row : value * u + row;
-    }
-    f[part] = value;
-  }
-  const V last_u = r * (fv[1] * f[0] - fv[0] * f[1]), last_v = r * (fu[0] * f[1] - fu[1] * f[0]);
-  u = u - last_u, v = v - last_v;
-  second2 = last_u * last_u + last_v * last_v;
+  V bent[2];
+  for (int part = 0; part < 2; ++part)
+    bent[part] = (fuu[part] * move_u + fuv[part] * move_v) * move_u + (fvv[part] * move_v) * move_v;
+  const V more_u = r * (fv[1] * bent[0] - fv[0] * bent[1]), more_v = r * (fu[0] * bent[1] - fu[1] * bent[0]);
+  u = u - (move_u + more_u), v = v - (move_v + more_v);
+  return {move_u * move_u + move_v * move_v, more_u * more_u + more_v * more_v,
+          (r * r) * ((fu[0] * fu[0] + fu[1] * fu[1]) + (fv[0] * fv[0] + fv[1] * fv[1]))};
 }

@@ -1,45 +1,96 @@
-// What sphere_packets.cpp keeps of each lane, and error-free transformations on vectors. Included inside the
-// namespace of an instruction set, with `hn` for Highway's own; hence no guard and no include.
+// Rays in lanes: what the vectors of one instruction set do alike, beyond Highway's own. Included inside the
+// namespace of an instruction set, with `hn` for Highway's; hence no guard and no include.
 
 template <class D>
 struct Lift {
   HWY_INLINE hn::Vec<D> operator()(double x) const { return hn::Set(D(), x); }
 };
 
-// What a lane takes from memory and returns to it.
-template <std::size_t N>
-struct Lanes {
-  alignas(64) double origin[3][N], direction[3][N], t_min[N], t_max[N];
-  alignas(64) double axes[9][N];
-  alignas(64) float start[12][N];
-  alignas(64) std::int64_t cell[N]{};
-  alignas(64) double a[N], b[N];  // places in the cells
-  alignas(64) double ok[N];
-  // Set, since a compiler cannot see that only hits are asked for them.
-  alignas(64) double t[N]{}, t_error[N]{}, u[N]{}, v[N]{}, point[3][N]{}, normal[3][N]{};
-};
-
 template <class V>
-struct Product {
+struct Exact {
   V high, low;
 };
 
-// Exact: the error is what a fused multiply-add leaves, or Dekker's sum where there is none.
+template <class V>
+HWY_INLINE Exact<V> exact_sum(V a, V b) {
+  const V sum = a + b, from_b = sum - a;
+  return {sum, (a - (sum - from_b)) + (b - from_b)};
+}
+
+// a b - c, rounded once. Without an instruction for it: from the exact product, the sum of whose parts and c
+// is rounded to odd before its last addition (Boldo and Melquiond 2008, figure 6).
 template <class D, class V>
-HWY_INLINE Product<V> exact_product(D d, V a, V b) {
-  const V product = a * b;
+HWY_INLINE V fused(D d, V a, V b, V c) {
 #if HWY_NATIVE_FMA
   (void)d;
-  return {product, hn::MulSub(a, b, product)};
+  return hn::MulSub(a, b, c);
 #else
   const V split = hn::Set(d, 0x1.0000002p27), wide_a = split * a, wide_b = split * b;
   const V a1 = wide_a - (wide_a - a), a2 = a - a1, b1 = wide_b - (wide_b - b), b2 = b - b1;
-  return {product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2};
+  const V product = a * b, error = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2, zero = hn::Zero(d);
+  const Exact<V> low = exact_sum(zero - c, error), high = exact_sum(product, low.high),
+                 rest = exact_sum(low.low, high.low);
+  const hn::RebindToSigned<D> di;
+  const auto one = hn::Set(di, std::int64_t{1}), bits = hn::BitCast(di, rest.high);
+  const auto even = hn::RebindMask(d, hn::Eq(hn::And(bits, one), hn::Zero(di)));
+  const auto inexact = hn::Ne(rest.low, zero);
+  const auto apart = hn::RebindMask(di, hn::Xor(hn::Lt(rest.high, zero), hn::Lt(rest.low, zero)));
+  const auto odd = bits + hn::IfThenElse(apart, hn::Neg(one), one);
+  return high.high + hn::IfThenElse(hn::And(even, inexact), hn::BitCast(d, odd), rest.high);
 #endif
 }
 
-template <class V>
-HWY_INLINE Product<V> exact_sum(V a, V b) {
-  const V sum = a + b, from_b = sum - a;
-  return {sum, (a - (sum - from_b)) + (b - from_b)};
+// Eight numbers of each of N rows, as eight vectors, and back: out[i], lane k, is number i of row k.
+template <class D, class V>
+HWY_INLINE void turn(D d, V a, V b, V c, V e, V* out) {  // of four 128-bit blocks each
+  const V x = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a),
+          y = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a)),
+          z = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(e), c),
+          w = hn::OddEvenBlocks(e, hn::SwapAdjacentBlocks(c));
+  out[0] = hn::ConcatLowerLower(d, z, x), out[1] = hn::ConcatLowerLower(d, w, y);
+  out[2] = hn::ConcatUpperUpper(d, z, x), out[3] = hn::ConcatUpperUpper(d, w, y);
+}
+
+template <class D, class V>
+HWY_INLINE void turn_square(D d, const V* in, V* out) {  // as many rows as lanes
+  constexpr std::size_t N = hn::MaxLanes(D());
+  if constexpr (N == 8) {
+    V lower[4], upper[4], even[4], odd[4];
+    for (int k = 0; k < 4; ++k) {
+      lower[k] = hn::InterleaveLower(d, in[2 * k], in[2 * k + 1]);
+      upper[k] = hn::InterleaveUpper(d, in[2 * k], in[2 * k + 1]);
+    }
+    turn(d, lower[0], lower[1], lower[2], lower[3], even);
+    turn(d, upper[0], upper[1], upper[2], upper[3], odd);
+    for (int k = 0; k < 4; ++k) out[2 * k] = even[k], out[2 * k + 1] = odd[k];
+  } else if constexpr (N == 4) {
+    const V a = hn::InterleaveLower(d, in[0], in[1]), b = hn::InterleaveUpper(d, in[0], in[1]),
+            c = hn::InterleaveLower(d, in[2], in[3]), e = hn::InterleaveUpper(d, in[2], in[3]);
+    out[0] = hn::ConcatLowerLower(d, c, a), out[1] = hn::ConcatLowerLower(d, e, b);
+    out[2] = hn::ConcatUpperUpper(d, c, a), out[3] = hn::ConcatUpperUpper(d, e, b);
+  } else {
+    out[0] = hn::InterleaveLower(d, in[0], in[1]), out[1] = hn::InterleaveUpper(d, in[0], in[1]);
+  }
+}
+
+template <class D, class V>
+HWY_INLINE void columns_of(D d, const double* const* rows, V* out) {
+  constexpr std::size_t N = hn::MaxLanes(D());
+  for (std::size_t first = 0; first < 8; first += N) {
+    V in[N];
+    for (std::size_t k = 0; k < N; ++k) in[k] = hn::LoadU(d, rows[k] + first);
+    turn_square(d, in, out + first);
+  }
+}
+
+// `to[k]` where row k goes, or nullptr.
+template <class D, class V>
+HWY_INLINE void rows_of(D d, const V* columns, double* const* to) {
+  constexpr std::size_t N = hn::MaxLanes(D());
+  for (std::size_t first = 0; first < 8; first += N) {
+    V out[N];
+    turn_square(d, columns + first, out);
+    for (std::size_t k = 0; k < N; ++k)
+      if (to[k]) hn::StoreU(out[k], d, to[k] + first);
+  }
 }

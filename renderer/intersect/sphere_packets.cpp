@@ -1,6 +1,8 @@
 #include "renderer/intersect/sphere_packets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 // What remains: SSE4, AVX2 and AVX-512, and plain code for all else.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
@@ -16,260 +18,234 @@ namespace rondure {
 namespace HWY_NAMESPACE {
 namespace {
 
+#if HWY_TARGET == HWY_SCALAR
+
+// One lane: all is handed back.
+void closest_wide(const SphereTarget&, const Ray*, std::size_t count, Hit*, unsigned char* done) {
+  std::fill(done, done + count, static_cast<unsigned char>(0));
+}
+
+#else
+
 namespace hn = hwy::HWY_NAMESPACE;
 
 #include "renderer/intersect/sphere_kernel-inl.h"
 #include "renderer/intersect/sphere_lanes-inl.h"
+#include "renderer/intersect/sphere_meet-inl.h"
 
-// Parameters at the points n of patches with one inverse; lanes that have not converged are not in `good`.
-template <int K, class D, class V, class M>
-HWY_INLINE void parameters_at(D d, const PatchInverse& inverse, V x, V y, V w, V& u, V& v, M& good) {
-  constexpr double converged = 1e-32;
+// What the cells and patches of a group's hits say.
+struct Held {
+  const SphereCell* cells[lane_count];
+  const SpherePatch* patches[lane_count];
+  V owned, several;  // 1 or 0
+};
+
+HWY_INLINE void fetch(const SpherePatches& all, const Group& g, Held& held) {
+  alignas(64) double owned[lane_count], several[lane_count];
+  for (std::size_t k = 0; k < lane_count; ++k) {
+    const SphereCell& cell = all.cells[static_cast<std::size_t>(g.cell[k])];
+    held.cells[k] = &cell, held.patches[k] = &all.patches[static_cast<std::size_t>(std::max(cell.owner, 0))];
+    owned[k] = cell.owner < 0 ? 0.0 : 1.0, several[k] = cell.next < 0 ? 0.0 : 1.0;
+  }
+  held.owned = hn::Load(D(), owned), held.several = hn::Load(D(), several);
+}
+
+// As SphereCell::start_at: pairs of floats, u and v, in the place of doubles.
+HWY_INLINE void start(const Held& held, const Group& g, V& u, V& v) {
+  const D d;
+  const hn::Repartition<float, D> pairs;
+  const hn::Rebind<float, D> df;
+  const hn::RebindToUnsigned<D> du;
+  const hn::Rebind<std::uint32_t, D> du32;
+  const double* rows[lane_count];
+  V numbers[8], more[8];
+  for (std::size_t k = 0; k < lane_count; ++k)
+    rows[k] = reinterpret_cast<const double*>(held.cells[k]->start);
+  columns_of(d, rows, numbers);
+  for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 2;
+  columns_of(d, rows, more);
+  const auto f = [&](int k) HWY_ATTR { return hn::BitCast(pairs, k < 8 ? numbers[k] : more[k - 2]); };
+  const auto twice = [&](V x) HWY_ATTR {
+    const auto bits = hn::PromoteTo(du, hn::BitCast(du32, hn::DemoteTo(df, x)));
+    return hn::BitCast(pairs, hn::Or(bits, hn::ShiftLeft<32>(bits)));
+  };
+  const auto a = twice(g.a), b = twice(g.b), aa = a * a, ab = a * b, bb = b * b;
+  const auto both = (((f(0) + f(1) * a) + f(2) * b) + f(4) * ab) +
+                    ((f(3) + (f(6) * a + f(7) * b)) * aa + (f(5) + (f(8) * a + f(9) * b)) * bb);
+  const auto bits = hn::BitCast(du, both);
+  u = hn::PromoteTo(d, hn::BitCast(df, hn::TruncateTo(du32, bits)));
+  v = hn::PromoteTo(d, hn::BitCast(df, hn::TruncateTo(du32, hn::ShiftRight<32>(bits))));
+}
+
+// The points in their patches' frames; z less 1.
+HWY_INLINE void turn_to_patches(const Held& held, const V* n, V& x, V& y, V& w) {
+  const D d;
+  const Lift<D> lift;
+  V m[3][4];
+  bool one_patch = true;
+  for (std::size_t k = 1; k < lane_count; ++k) one_patch = one_patch && held.patches[k] == held.patches[0];
+  if (one_patch) {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) m[i][k] = lift(held.patches[0]->axes[i][k]);
+  } else {
+    const double* rows[lane_count];
+    V last[8];
+    for (std::size_t k = 0; k < lane_count; ++k) rows[k] = &held.patches[k]->axes[0].x;
+    columns_of(d, rows, &m[0][0]);
+    for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 4;
+    columns_of(d, rows, last);
+    for (int k = 0; k < 4; ++k) m[2][k] = last[4 + k];
+  }
+  x = (m[0][0] * n[0] + m[1][0] * n[1]) + m[2][0] * n[2];
+  y = (m[0][1] * n[0] + m[1][1] * n[1]) + m[2][1] * n[2];
+  w = lift(1.0) - ((m[0][2] * n[0] + m[1][2] * n[1]) + m[2][2] * n[2]);
+}
+
+// Lanes that have not converged are not in what is returned.
+template <int K>
+HWY_INLINE M parameters_at(const PatchInverse& inverse, V x, V y, V w, V& u, V& v) {
+  const D d;
+  const auto good = [&](const Stride<V>& s) HWY_ATTR {
+    return hn::And(hn::And(hn::Le(s.first2 * s.second2, hn::Set(d, last_parts2)),
+                           hn::Le(s.first2, hn::Set(d, last_step2))),
+                   hn::Le(s.steep2, hn::Set(d, inverse.steepest2)));
+  };
   Residual<K, V> c;
   residual_of<K>(inverse.coefficients.data(), x, y, w, c, Lift<D>());
-  V first2, second2, steep2;
-  two_steps<K>(c, u, v, first2, second2, steep2, Lift<D>());
-  good = hn::Le(first2 * second2, hn::Set(d, converged));
-  const V steepest2 = hn::Set(d, inverse.steepest2);
-  good = hn::And(good, hn::Le(steep2, steepest2));
-  if (hn::AllTrue(d, good)) return;
-  V more_u = u, more_v = v;
-  two_steps<K>(c, more_u, more_v, first2, second2, steep2, Lift<D>());
-  u = hn::IfThenElse(good, u, more_u), v = hn::IfThenElse(good, v, more_v);
-  good = hn::Or(good, hn::And(hn::Le(first2 * second2, hn::Set(d, converged)), hn::Le(steep2, steepest2)));
-}
-
-// The lanes' cells and owners, and what those say; lanes without an owner get those of some patch, and `ok`
-// 0.
-template <std::size_t N>
-HWY_INLINE void fetch(const SpherePatches& patches, Lanes<N>& lanes, std::int32_t* owner) {
-  for (std::size_t k = 0; k < N; ++k) {
-    const SphereCell& cell = patches.cells[static_cast<std::size_t>(lanes.cell[k])];
-    owner[k] = cell.owner;
-    if (cell.owner < 0) lanes.ok[k] = 0.0, owner[k] = 0;
-    for (int i = 0; i < 6; ++i) lanes.start[i][k] = cell.u[i], lanes.start[6 + i][k] = cell.v[i];
-    const SpherePatch& patch = patches.patches[static_cast<std::size_t>(owner[k])];
-    for (int i = 0; i < 9; ++i) lanes.axes[i][k] = patch.axes[i / 3][i % 3];
+  M done = good(step_towards_zero<K>(c, u, v, Lift<D>()));
+  for (int k = 1; k < inverse_steps && !hn::AllTrue(d, done); ++k) {
+    V more_u = u, more_v = v;
+    const M now = good(step_towards_zero<K>(c, more_u, more_v, Lift<D>()));
+    u = hn::IfThenElse(done, u, more_u), v = hn::IfThenElse(done, v, more_v);
+    done = hn::Or(done, now);
   }
+  return done;
 }
 
-// From the rays to points of the sphere and their cells. ok[k] becomes 1 for a hit, 0 for a ray to be handed
-// back, -1 for a miss. False when no lane has a hit.
-template <class D, std::size_t N>
-HWY_INLINE bool meet(D d, const SphereTarget& target, Lanes<N>& lanes) {
-  using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  const hn::RebindToSigned<D> di;
-  const Lift<D> lift;
-  const PatchedSphere& sphere = *target.sphere;
-  const V zero = lift(0.0), one = lift(1.0);
-
-  V ox = hn::Load(d, lanes.origin[0]), oy = hn::Load(d, lanes.origin[1]), oz = hn::Load(d, lanes.origin[2]);
-  V dx = hn::Load(d, lanes.direction[0]), dy = hn::Load(d, lanes.direction[1]),
-    dz = hn::Load(d, lanes.direction[2]);
-  // As set_direction: a power of two brings the largest component to [1, 2).
-  const V size = hn::Max(hn::Max(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
-  const auto exponent = hn::And(hn::BitCast(di, size), hn::Set(di, std::int64_t{0x7ff0000000000000}));
-  const V scale = hn::BitCast(d, hn::Set(di, std::int64_t{2046} << 52) - exponent);
-  M ok = hn::And(hn::Gt(size, lift(0x1p-900)), hn::Lt(size, lift(0x1p900)));
-  const V sum = ((ox - ox) + (oy - oy) + (oz - oz)) + ((dx - dx) + (dy - dy) + (dz - dz));
-  ok = hn::And(ok, hn::Eq(sum, zero));
-  dx = dx * scale, dy = dy * scale, dz = dz * scale;
-  const V length2 = (dx * dx + dy * dy) + dz * dz;
-
-  // As set_base.
-  const Product<V> away[3] = {exact_sum(lift(target.frame.x), zero - ox),
-                              exact_sum(lift(target.frame.y), zero - oy),
-                              exact_sum(lift(target.frame.z), zero - oz)};
-  const V slide = ((away[0].high * dx + away[1].high * dy) + away[2].high * dz) / length2;
-  ok = hn::And(ok, hn::Lt(hn::Abs(slide), lift(0x1p900)));
-  V base[3];
-  const V along[3] = {dx, dy, dz};
-  for (int k = 0; k < 3; ++k) {
-    const Product<V> step = exact_product(d, slide, along[k]);
-    const Product<V> total = exact_sum(step.high, zero - away[k].high);
-    base[k] = total.high + (total.low + (step.low - away[k].low));
-  }
-
-  const V inverse_radius = lift(sphere.inverse_radius);
-  const SphereChord<V> chord = chord_of((base[0] - lift(sphere.center.x)) * inverse_radius,
-                                        (base[1] - lift(sphere.center.y)) * inverse_radius,
-                                        (base[2] - lift(sphere.center.z)) * inverse_radius,
-                                        dx * inverse_radius, dy * inverse_radius, dz * inverse_radius, lift);
-  M hit = hn::And(ok, hn::Ge(chord.rest, zero));
-  const V half = hn::Sqrt(hn::Max(chord.rest, zero) * chord.inverse_length2);
-  const V t_min = hn::Load(d, lanes.t_min), t_max = hn::Load(d, lanes.t_max);
-  const V enter = (slide + (chord.middle - half)) * scale, leave = (slide + (chord.middle + half)) * scale;
-  const M enters = hn::And(hn::Ge(enter, t_min), hn::Le(enter, t_max)),
-          leaves = hn::And(hn::Ge(leave, t_min), hn::Le(leave, t_max));
-  hit = hn::And(hit, hn::Or(enters, leaves));
-  hn::Store(hn::IfThenElse(ok, hn::IfThenElse(hit, one, lift(-1.0)), zero), d, lanes.ok);
-  if (hn::AllFalse(d, hit)) return false;
-
-  const V way = hn::IfThenElse(enters, zero - half, half), s = chord.middle + way;
-  const V t = hn::IfThenElse(enters, enter, leave);
-  V x, y, z;
-  point_at(chord, way, x, y, z, lift);
-  const double error = ellipsoid_error(sphere.ellipsoid);
-  const V grazing = lift(std::sqrt(2.0 * error * sphere.ellipsoid.extent));
-  const V shift = lift(error * sphere.inverse_radius) * chord.inverse_length2 / half;
-  const V s_error =
-      lift(2.0) * hn::IfThenElse(hn::Lt(grazing, shift), grazing, shift) + lift(0x1p-52) * hn::Abs(slide + s);
-  hn::Store(t, d, lanes.t);
-  hn::Store(s_error * scale, d, lanes.t_error);
-  const V radius = lift(sphere.ellipsoid.uniform_radius);
-  hn::Store(lift(target.frame.x) + (lift(sphere.center.x) + radius * x), d, lanes.point[0]);
-  hn::Store(lift(target.frame.y) + (lift(sphere.center.y) + radius * y), d, lanes.point[1]);
-  hn::Store(lift(target.frame.z) + (lift(sphere.center.z) + radius * z), d, lanes.point[2]);
-  hn::Store(x, d, lanes.normal[0]), hn::Store(y, d, lanes.normal[1]), hn::Store(z, d, lanes.normal[2]);
-
-  // As cell_at.
-  const SpherePatches& patches = sphere.patches;
-  const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-  const M is_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az)), is_y = hn::AndNot(is_x, hn::Ge(ay, az));
-  const V major = hn::IfThenElse(is_x, x, hn::IfThenElse(is_y, y, z)),
-          second = hn::IfThenElse(is_x, y, hn::IfThenElse(is_y, z, x)),
-          third = hn::IfThenElse(is_x, z, hn::IfThenElse(is_y, x, y));
-  const V side = lift(patches.cells_a_side), last = lift(patches.cells_a_side - 1), middle = lift(0.5) * side;
-  const V face = hn::IfThenElse(is_x, zero, hn::IfThenElse(is_y, lift(2.0), lift(4.0))) +
-                 hn::IfThenElse(hn::Lt(major, zero), one, zero);
-  const V r = one / hn::Abs(major);
-  const V g = (second * r + one) * middle, h = (third * r + one) * middle;
-  const V row = hn::Min(hn::Floor(g), last), column = hn::Min(hn::Floor(h), last);
-  // Lanes without a hit hold anything: any cell will do.
-  const V index = (face * side + row) * side + column;
-  hn::Store(hn::ConvertTo(di, hn::IfThenElse(hit, index, zero)), di, lanes.cell);
-  hn::Store(lift(2.0) * (g - row) - one, d, lanes.a);
-  hn::Store(lift(2.0) * (h - column) - one, d, lanes.b);
-  return true;
-}
-
-// The parameters of the hits. Lanes whose patch does not hold them, or has not told in a few steps, are
-// handed back.
-template <class D, std::size_t N>
-HWY_INLINE void place(D d, const SpherePatches& patches, Lanes<N>& lanes, const std::int32_t* owner) {
-  using V = hn::Vec<D>;
-  using M = hn::Mask<D>;
-  const hn::Rebind<float, D> df;
+// The parameters of the hits. Lanes whose patch does not hold them, or has not told in a few steps, are no
+// longer known.
+HWY_INLINE void place(const SpherePatches& patches, const Held& held, Group& g, V& out_u, V& out_v) {
+  const D d;
   const Lift<D> lift;
   const V zero = lift(0.0), one = lift(1.0);
-  const V a = hn::Load(d, lanes.a), b = hn::Load(d, lanes.b);
-  const V x = hn::Load(d, lanes.normal[0]), y = hn::Load(d, lanes.normal[1]),
-          z = hn::Load(d, lanes.normal[2]);
-  V f[12];
-  for (int k = 0; k < 12; ++k) f[k] = hn::PromoteTo(d, hn::Load(df, lanes.start[k]));
-  const auto start = [&](const V* q) HWY_ATTR {
-    return ((q[0] + q[1] * a) + q[2] * b) + ((q[3] * a) * a + (q[4] * a + q[5] * b) * b);
-  };
-  V u = start(f), v = start(f + 6);
-  V m[9];
-  for (int k = 0; k < 9; ++k) m[k] = hn::Load(d, lanes.axes[k]);
-  const V px = (m[0] * x + m[1] * y) + m[2] * z, py = (m[3] * x + m[4] * y) + m[5] * z,
-          pw = one - ((m[6] * x + m[7] * y) + m[8] * z);
-
+  V u, v, x, y, w;
+  start(held, g, u, v);
+  turn_to_patches(held, g.point, x, y, w);
+  const M alone = hn::Eq(held.several, zero);
+  M pending = hn::And(g.hit, hn::Eq(held.owned, one)), placed = hn::Lt(one, zero);
+  out_u = out_v = zero;
   // Patches are mostly congruent; where not, one inverse after the other.
-  V out_u = zero, out_v = zero;
-  M all_good = hn::Lt(one, zero);
-  bool pending[N], several = false;
-  std::int32_t which[N];
-  for (std::size_t k = 0; k < N; ++k) {
-    pending[k] = lanes.ok[k] == 1.0;
-    which[k] = patches.patches[static_cast<std::size_t>(owner[k])].inverse;
-  }
-  for (std::size_t k = 0; k < N; ++k) {
-    if (!pending[k]) continue;
-    alignas(64) double mine[N];
-    bool all = !several;
-    for (std::size_t j = 0; j < N; ++j) {
-      const bool same = pending[j] && which[j] == which[k];
-      mine[j] = same ? 1.0 : 0.0;
-      all = all && (same || !pending[j]);
+  const bool congruent = patches.inverses.size() == 1;
+  while (!hn::AllFalse(d, pending)) {
+    const std::int32_t which = held.patches[hn::FindFirstTrue(d, pending)]->inverse;
+    M these = pending;
+    if (!congruent) {
+      alignas(64) double mine[lane_count];
+      for (std::size_t k = 0; k < lane_count; ++k) mine[k] = held.patches[k]->inverse == which ? 1.0 : 0.0;
+      these = hn::And(these, hn::Eq(hn::Load(d, mine), one));
     }
-    for (std::size_t j = 0; j < N; ++j) pending[j] = pending[j] && mine[j] == 0.0;
-    const M these = all ? hn::Gt(one, zero) : hn::Gt(hn::Load(d, mine), zero);
-    const PatchInverse& inverse = patches.inverses[static_cast<std::size_t>(which[k])];
+    pending = hn::AndNot(these, pending);
+    const PatchInverse& inverse = patches.inverses[static_cast<std::size_t>(which)];
     V this_u = u, this_v = v;
-    M good;
-    if (inverse.degree == 2)
-      parameters_at<2>(d, inverse, px, py, pw, this_u, this_v, good);
-    else
-      parameters_at<4>(d, inverse, px, py, pw, this_u, this_v, good);
-    this_u = this_u + lift(inverse.middle.x), this_v = this_v + lift(inverse.middle.y);
-    good = hn::And(good, hn::And(hn::Ge(this_u, zero), hn::Ge(this_v, zero)));
-    const V farthest = inverse.middle.x == 0.5 ? hn::Max(this_u, this_v) : this_u + this_v;
-    good = hn::And(hn::And(good, these), hn::Le(farthest, one));
+    M good = inverse.degree == 2 ? parameters_at<2>(inverse, x, y, w, this_u, this_v)
+                                 : parameters_at<4>(inverse, x, y, w, this_u, this_v);
+    // As in_domain.
+    const V middle_u = lift(inverse.middle.x), middle_v = lift(inverse.middle.y);
+    const auto inside = [&](V p, V q) HWY_ATTR {
+      const V farthest = inverse.middle.x == 0.5 ? hn::Max(p, q) : p + q;
+      return hn::And(hn::And(hn::Ge(p, zero), hn::Ge(q, zero)), hn::Le(farthest, one));
+    };
+    this_u = this_u + middle_u, this_v = this_v + middle_v;
+    good = hn::And(hn::And(good, these), inside(this_u, this_v));
+    good = hn::And(good, hn::Or(alone, inside(u + middle_u, v + middle_v)));
     out_u = hn::IfThenElse(these, this_u, out_u), out_v = hn::IfThenElse(these, this_v, out_v);
-    all_good = hn::Or(all_good, good);
-    if (all) break;
-    several = true;
+    placed = hn::Or(placed, good);
   }
-  hn::Store(out_u, d, lanes.u), hn::Store(out_v, d, lanes.v);
-  const V state = hn::Load(d, lanes.ok);
-  hn::Store(hn::IfThenElse(hn::And(hn::Eq(state, one), hn::Not(all_good)), zero, state), d, lanes.ok);
+  g.known = hn::And(g.known, hn::Or(hn::Not(g.hit), placed));
 }
 
-template <class D, std::size_t N>
-HWY_INLINE void load(const Ray* rays, std::size_t count, Lanes<N>& lanes) {
-  for (std::size_t k = 0; k < N; ++k) {
-    const Ray& ray = rays[k < count ? k : 0];
-    for (int i = 0; i < 3; ++i) lanes.origin[i][k] = ray.origin[i], lanes.direction[i][k] = ray.direction[i];
-    lanes.t_min[k] = ray.t_min, lanes.t_max[k] = ray.t_max;
-  }
-}
+static_assert(offsetof(Hit, surface) == 2 * sizeof(double) &&
+              offsetof(Hit, patch) == offsetof(Hit, surface) + 4 && offsetof(Hit, u) == 3 * sizeof(double) &&
+              offsetof(Hit, v) == 4 * sizeof(double) && offsetof(Hit, point) == 5 * sizeof(double) &&
+              offsetof(Hit, normal) == 8 * sizeof(double) && sizeof(Hit) == 11 * sizeof(double));
 
-template <std::size_t N>
-HWY_INLINE void unload(const SphereTarget& target, const Lanes<N>& lanes, const std::int32_t* owner,
+// Writes what is known.
+HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group& g, V u, V v,
                        const Ray* rays, std::size_t count, Hit* hits, unsigned char* done) {
+  const D d;
+  const Lift<D> lift;
+  const hn::RebindToSigned<D> di;
+  const V zero = lift(0.0);
+  alignas(64) double known[lane_count], outward[lane_count];
+  alignas(64) std::int64_t names[lane_count];
+  hn::Store(hn::IfThenElseZero(g.known, lift(1.0)), d, known);
+  double* to[lane_count];
+  for (std::size_t k = 0; k < lane_count; ++k) {
+    const bool mine = k < count && known[k] != 0.0 && rays[k].start.surface != target.surface;
+    to[k] = mine ? &hits[k].t : nullptr;
+    if (k < count) done[k] = mine ? 1 : 0;
+    names[k] = static_cast<std::int64_t>(held.patches[k]->patch) << 32 | target.surface;
+    outward[k] = held.patches[k]->outward;
+  }
+  const dvec3 &frame = target.frame, &center = target.sphere->center;
+  const V radius = lift(target.sphere->ellipsoid.uniform_radius), side = hn::Load(d, outward);
+  V numbers[11] = {g.t, g.t_error, hn::BitCast(d, hn::Load(di, names)), u, v};
+  for (int k = 0; k < 3; ++k) {
+    numbers[5 + k] = lift(frame[k]) + (lift(center[k]) + radius * g.point[k]);
+    numbers[8 + k] = side * g.point[k];
+  }
+  const V none[3] = {lift(INFINITY), zero, hn::BitCast(d, hn::Set(di, std::int64_t{-1}))};
+  for (int k = 0; k < 11; ++k) numbers[k] = hn::IfThenElse(g.hit, numbers[k], k < 3 ? none[k] : zero);
+  rows_of(d, numbers, to);
+  for (double*& row : to)
+    if (row) row += 3;
+  rows_of(d, numbers + 3, to);
+}
+
+HWY_INLINE void unload_misses(const SphereTarget& target, const Group& g, const Ray* rays, std::size_t count,
+                              Hit* hits, unsigned char* done) {
+  const D d;
+  alignas(64) double known[lane_count];
+  hn::Store(hn::IfThenElseZero(g.known, hn::Set(d, 1.0)), d, known);
   for (std::size_t k = 0; k < count; ++k) {
-    Hit& hit = hits[k];
-    const bool mine = lanes.ok[k] != 0.0 && rays[k].start.surface != target.surface;
-    done[k] = mine ? 1 : 0;
-    if (!mine) continue;
-    if (lanes.ok[k] < 0.0) {
-      hit = Hit{};
-      continue;
-    }
-    const SpherePatch& patch = target.sphere->patches.patches[static_cast<std::size_t>(owner[k])];
-    hit.t = lanes.t[k], hit.t_error = lanes.t_error[k];
-    hit.surface = target.surface, hit.patch = patch.patch;
-    hit.u = lanes.u[k], hit.v = lanes.v[k];
-    hit.point = {lanes.point[0][k], lanes.point[1][k], lanes.point[2][k]};
-    hit.normal = dvec3(lanes.normal[0][k], lanes.normal[1][k], lanes.normal[2][k]) * patch.outward;
+    done[k] = known[k] != 0.0 && rays[k].start.surface != target.surface ? 1 : 0;
+    if (done[k]) hits[k] = Hit{};
   }
 }
 
-// Two groups of lanes take turns, so that what one has stored has reached memory when it is read again.
-template <class D>
-HWY_INLINE void run(D d, const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
-                    unsigned char* done) {
-  constexpr std::size_t N = hn::MaxLanes(D()), groups = N == 1 ? 1 : 2;
-  Lanes<N> lanes[groups];
-  std::int32_t owner[groups][N]{};
-  const SpherePatches& patches = target.sphere->patches;
-  for (std::size_t first = 0; first < count; first += groups * N) {
-    const auto begin = [&](std::size_t g) HWY_ATTR { return std::min(first + g * N, count); };
-    const std::size_t used = begin(1) < count ? groups : 1;
-    bool hit[groups]{};
-    for (std::size_t g = 0; g < used; ++g) load<D>(rays + begin(g), begin(g + 1) - begin(g), lanes[g]);
-    for (std::size_t g = 0; g < used; ++g) hit[g] = meet<D, N>(d, target, lanes[g]);
-    for (std::size_t g = 0; g < used; ++g)
-      if (hit[g]) fetch(patches, lanes[g], owner[g]);
-    for (std::size_t g = 0; g < used; ++g)
-      if (hit[g]) place<D, N>(d, patches, lanes[g], owner[g]);
-    for (std::size_t g = 0; g < used; ++g)
-      unload(target, lanes[g], owner[g], rays + begin(g), begin(g + 1) - begin(g), hits + begin(g),
-             done + begin(g));
-  }
-}
-
+// Two groups of lanes take turns, so that neither waits for what it has just stored.
 void closest_wide(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                   unsigned char* done) {
-  run(hn::CappedTag<double, 8>(), target, rays, count, hits, done);
+  constexpr std::size_t groups = 2;
+  Group group[groups];
+  Held held[groups];
+  const SpherePatches& patches = target.sphere->patches;
+  for (std::size_t first = 0; first < count; first += groups * lane_count) {
+    const auto begin = [&](std::size_t g) HWY_ATTR { return std::min(first + g * lane_count, count); };
+    const std::size_t used = begin(1) < count ? groups : 1;
+    bool hit[groups]{};
+    for (std::size_t g = 0; g < used; ++g) {
+      const double* in[lane_count];
+      for (std::size_t k = 0; k < lane_count; ++k)
+        in[k] = &rays[begin(g) + k < count ? begin(g) + k : begin(g)].origin.x;
+      hit[g] = meet(target, in, group[g]);
+    }
+    for (std::size_t g = 0; g < used; ++g)
+      if (hit[g]) fetch(patches, group[g], held[g]);
+    for (std::size_t g = 0; g < used; ++g) {
+      const std::size_t at = begin(g), size = begin(g + 1) - at;
+      if (!hit[g]) {
+        unload_misses(target, group[g], rays + at, size, hits + at, done + at);
+        continue;
+      }
+      V u, v;
+      place(patches, held[g], group[g], u, v);
+      unload(target, held[g], group[g], u, v, rays + at, size, hits + at, done + at);
+    }
+  }
 }
-void closest_single(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
-                    unsigned char* done) {
-  run(hn::CappedTag<double, 1>(), target, rays, count, hits, done);
-}
+
+#endif
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -280,18 +256,14 @@ HWY_AFTER_NAMESPACE();
 namespace rondure {
 
 HWY_EXPORT(closest_wide);
-HWY_EXPORT(closest_single);
 
 void closest_on_sphere(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        unsigned char* done) noexcept {
-  if (!(target.sphere->inverse_radius > 0.0)) {
+  if (!(target.inverse_radius > 0.0)) {
     for (std::size_t k = 0; k < count; ++k) done[k] = 0;
     return;
   }
-  if (count == 1)
-    HWY_DYNAMIC_DISPATCH(closest_single)(target, rays, count, hits, done);
-  else
-    HWY_DYNAMIC_DISPATCH(closest_wide)(target, rays, count, hits, done);
+  HWY_DYNAMIC_DISPATCH(closest_wide)(target, rays, count, hits, done);
 }
 
 std::vector<std::string> instruction_sets() {

@@ -10,18 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "renderer/intersect/sphere_solver.h"
+#include "renderer/intersect/sphere_ray.h"
 
 namespace rondure {
 
-struct SphereTarget {
-  const PatchedSphere* sphere;
-  dvec3 frame;  // of the surface
-  int surface;  // its index
-};
-
-// Sets hits[k], and done[k] to 1; or leaves the hit alone and sets done[k] to 0. Any count; one by one where
-// it is 1.
+// Sets hits[k], and done[k] to 1; or leaves the hit alone and sets done[k] to 0. Any count.
 void closest_on_sphere(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        unsigned char* done) noexcept;
 

@@ -25,17 +25,15 @@ void set_frame(const Net& net, SpherePatch& patch) {
   }
   x = glm::normalize(x);
   patch.outward = glm::dot(glm::cross(jet.du, jet.dv), jet.point) < 0.0 ? -1.0 : 1.0;
-  patch.axes[0] = x, patch.axes[1] = glm::cross(z, x), patch.axes[2] = z;
+  const dvec3 y = glm::cross(z, x);
+  for (int k = 0; k < 3; ++k) patch.axes[k] = dvec4(x[k], y[k], z[k], 0.0);
 }
 
 Net in_frame(const Net& net, const SpherePatch& patch) {
   const double middle = patch.triangle ? 1.0 / 3.0 : 0.5;
   const double w = net_first(net, middle, middle).value.w;
   Net out = net;
-  for (dvec4& p : points_of(out)) {
-    const dvec3 x(p);
-    p = dvec4(glm::dot(patch.axes[0], x), glm::dot(patch.axes[1], x), glm::dot(patch.axes[2], x), p.w) / w;
-  }
+  for (dvec4& p : points_of(out)) p = dvec4(dvec3(patch.axes * dvec3(p)), p.w) / w;
   return out;
 }
 
@@ -55,8 +53,8 @@ bool alike(const Net& a, const Net& b) {
 }  // namespace
 
 double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p) {
-  const double x = glm::dot(patch.axes[0], n), y = glm::dot(patch.axes[1], n),
-               w = 1.0 - glm::dot(patch.axes[2], n);
+  const dvec4 local = patch.axes * n;
+  const double x = local.x, y = local.y, w = 1.0 - local.z;
   const int k = inverse.degree;
   dvec2 c[25];
   for (int i = 0; i < (k + 1) * (k + 1); ++i) {

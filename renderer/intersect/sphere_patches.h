@@ -3,13 +3,16 @@
 // Seen from its middle (projected stereographically from the opposite point), a patch is the quotient a / b
 // of two complex polynomials in (u, v): for all that spherical constructions make, of half the patch's degree
 // (Dietz, Hoschek, Juettler 1993, theorem 2.2). A point of the sphere with the projection z = x / (1 - z3) is
-// then where (1 - z3) a - x b vanishes: two real equations of low degree. A grid of cells over the sphere (a
-// cube's faces, seen from its middle) starts Newton's method so close that two steps reach rounding, and
-// knows where a patch fills a cell: there nothing else has to be asked.
+// then where (1 - z3) a - x b vanishes: two real equations of low degree. A grid of cells over the sphere
+// (by its largest coordinate and the two others) starts Newton's method so close that two steps reach
+// rounding, and knows where a patch fills a cell: there nothing else has to be asked.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/mat3x4.hpp>
 #include <vector>
 
 #include "renderer/bezier/quotient.h"
@@ -26,10 +29,16 @@ struct PatchInverse {
   // way: near points where the patch is singular.
   double steepest2 = 0.0;
   std::array<double, 100> coefficients{};
+  // The same for one ray whose arithmetic is spread over lanes, lane 2 i + part holding a part (real 0,
+  // imaginary 1) of a coefficient of u^i: spread[which][j], `spread_lanes` of them, is what the point's 1 -
+  // z, -x and y are multiplied by to make those of u^i v^j.
+  alignas(64) std::array<double, 3 * 5 * 16> spread{};
+
+  std::size_t spread_lanes() const { return degree == 2 ? 8 : 16; }
 };
 
 struct SpherePatch {
-  dvec3 axes[3];  // rows: to the frame in which the patch's middle is (0, 0, -1)
+  glm::dmat3x4 axes{0.0};  // to the frame in which the patch's middle is (0, 0, -1); its last row is zero
   std::int32_t inverse = 0;
   std::int32_t patch = 0;  // of the surface
   bool triangle = false;
@@ -39,10 +48,23 @@ struct SpherePatch {
 
 // A patch that is there, with a start for its parameters. Where others may be, or a side is near, only
 // parameters inside the domain tell that a point is this patch's.
-struct SphereCell {
-  float u[6], v[6];    // 1, a, b, a^2, a b, b^2 in the cell's coordinates, -1 to 1: less the inverse's middle
-  std::int32_t owner;  // -1: none known
+struct alignas(32) SphereCell {
+  // Of 1, a, b, a^2, a b, b^2, a^3, a^2 b, a b^2, b^3 in the cell's coordinates, -1 to 1: for u and v, less
+  // the inverse's middle.
+  float start[10][2];
+  std::int32_t owner;   // -1: none known
   std::int32_t others;  // first of the candidates, this one among them; -1: none, the owner fills the cell
+  std::int32_t next;    // the same cell for another patch that is there; -1: no more
+
+  dvec2 start_at(float a, float b) const {
+    const float aa = a * a, ab = a * b, bb = b * b;
+    const auto at = [&](int k) {
+      const auto f = [&](int i) { return start[i][k]; };
+      return (((f(0) + f(1) * a) + f(2) * b) + f(4) * ab) +
+             ((f(3) + (f(6) * a + f(7) * b)) * aa + (f(5) + (f(8) * a + f(9) * b)) * bb);
+    };
+    return {at(0), at(1)};
+  }
 };
 
 struct SphereCandidate {
@@ -54,7 +76,7 @@ struct SpherePatches {
   std::vector<PatchInverse> inverses;
   std::vector<SpherePatch> patches;
   int cells_a_side = 0;
-  std::vector<SphereCell> cells;  // [(face * side + row) * side + column]
+  std::vector<SphereCell> cells;  // [(face * side + row) * side + column], then those that others call next
   std::vector<SphereCandidate> candidates;
 
   std::size_t bytes() const {
@@ -71,28 +93,70 @@ bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::s
 // A cell, and the point's place in it.
 struct CellPlace {
   std::size_t cell;
-  double a, b;  // -1 to 1
+  float a, b;  // -1 to 1
 };
 
-// Face 2 k + (negative) of axis k; the next two axes in cyclic order are the coordinates.
+// Of either coordinate in its face: no point of the sphere has two that are larger than sqrt(1/2).
+inline constexpr double cell_reach = 0.7072, cells_per_reach = 0.5 / cell_reach;
+
+// Face 2 k + (negative) of axis k, where that coordinate is the largest; the next two in cyclic order tell
+// row and column. Without a branch: nobody can foretell which is the largest.
 inline CellPlace cell_at(const dvec3& n, int side) {
-  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-  const bool is_x = x >= y && x >= z, is_y = !is_x && y >= z;
-  const double major = is_x   ? n.x
-                       : is_y ? n.y
-                              : n.z,
-               second = is_x   ? n.y
-                        : is_y ? n.z
-                               : n.x,
-               third = is_x   ? n.z
-                       : is_y ? n.x
-                              : n.y;
-  const int face = (is_x ? 0 : is_y ? 2 : 4) + (major < 0.0 ? 1 : 0);
-  const double r = quotient(1.0, std::fabs(major)), half = 0.5 * side;
-  const double g = (second * r + 1.0) * half, h = (third * r + 1.0) * half;
-  const int row = std::min(static_cast<int>(g), side - 1), column = std::min(static_cast<int>(h), side - 1);
-  return {static_cast<std::size_t>((face * side + row) * side + column), 2.0 * (g - row) - 1.0,
-          2.0 * (h - column) - 1.0};
+  const double middle = 0.5 * side, cells = cells_per_reach * side;
+  const double gx = n.x * cells + middle, gy = n.y * cells + middle, gz = n.z * cells + middle;
+  const double g[5] = {gx, gy, gz, gx, gy};
+  // The largest, which is not asked for, may be negative.
+  constexpr int bits = 12;
+  constexpr std::uint64_t mask = (1u << bits) - 1;
+  const auto whole = [](double a) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(a)) & mask; };
+  const std::uint64_t x = whole(gx), y = whole(gy), z = whole(gz);
+  const std::uint64_t all = (x | y << bits) | (z << 2 * bits | x << 3 * bits | y << 4 * bits);
+  const double size_x = std::fabs(n.x), size_y = std::fabs(n.y), size_z = std::fabs(n.z);
+  const auto y_leads = static_cast<unsigned>(size_y > size_x),
+             z_leads = static_cast<unsigned>(size_z > std::max(size_x, size_y));
+  const unsigned axis = 2 * z_leads | (y_leads & ~z_leads);
+  const unsigned negative = static_cast<unsigned>(std::signbit(n.x)) |
+                            static_cast<unsigned>(std::signbit(n.y)) << 1 |
+                            static_cast<unsigned>(std::signbit(n.z)) << 2;
+  const auto face = static_cast<std::size_t>(2 * axis + (negative >> axis & 1u));
+  const std::uint64_t mine = all >> (bits * (axis + 1));
+  const std::size_t row = mine & mask, column = mine >> bits & mask, width = static_cast<std::size_t>(side);
+  const double* from = g + axis + 1;
+  return {(face * width + row) * width + column,
+          static_cast<float>(2.0 * (from[0] - static_cast<double>(static_cast<std::int64_t>(row))) - 1.0),
+          static_cast<float>(2.0 * (from[1] - static_cast<double>(static_cast<std::int64_t>(column))) - 1.0)};
+}
+
+// Whether a patch's parameters, less the middle, are in its domain.
+inline bool in_domain(const PatchInverse& inverse, bool triangle, dvec2 p) {
+  const double u = p.x + inverse.middle.x, v = p.y + inverse.middle.y;
+  return u >= 0.0 && v >= 0.0 && (triangle ? u + v : std::max(u, v)) <= 1.0;
+}
+
+// Of the patches in a cell the one whose start is in its domain, which is right but beside seams; or else the
+// last. `start`: less the middle.
+inline const SphereCell& cell_around(const SpherePatches& patches, const CellPlace& at, dvec2& start) {
+  const SphereCell* cell = &patches.cells[at.cell];
+  for (;;) {
+    start = cell->start_at(at.a, at.b);
+    if (cell->next < 0) return *cell;
+    const SpherePatch& patch = patches.patches[static_cast<std::size_t>(cell->owner)];
+    if (in_domain(patches.inverses[static_cast<std::size_t>(patch.inverse)], patch.triangle, start))
+      return *cell;
+    cell = &patches.cells[static_cast<std::size_t>(cell->next)];
+  }
+}
+
+// Steps (of sphere_kernel-inl.h) by which the ordinary way finds parameters: one that has gone this far at
+// most is the last. What it leaves is of third order, with one factor or another: the product of its parts
+// sees one of them, the first alone bounds the other.
+inline constexpr int inverse_steps = 2;
+inline constexpr double last_parts2 = 1e-32, last_step2 = 2.5e-11;
+
+template <class Stride>
+bool has_converged(const Stride& stride, double steepest2) {
+  return stride.first2 * stride.second2 <= last_parts2 && stride.first2 <= last_step2 &&
+         stride.steep2 <= steepest2;
 }
 
 // Newton's method for the parameters (less the middle) at which the patch shows the point n, from a start; at

@@ -5,10 +5,9 @@
 
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
-#include "renderer/intersect/clipping.h"
+#include "renderer/intersect/cell.h"
+#include "renderer/intersect/direction_search.h"
 #include "renderer/intersect/ellipsoid_fit.h"
-#include "renderer/intersect/projected_net.h"
-#include "renderer/intersect/settle.h"
 
 namespace rondure {
 namespace {
@@ -16,8 +15,6 @@ namespace {
 #include "renderer/intersect/sphere_kernel-inl.h"
 
 constexpr auto same = [](double x) { return x; };
-// Squares of lengths: the product of two steps whose lengths have this product leaves rounding.
-constexpr double converged = 1e-32;
 
 template <class Shape>
 dvec2 clamped(dvec2 p, double& beyond) {
@@ -90,40 +87,6 @@ Net image_of(const PatchedSphere& sphere, const Net& net) {
   return image;
 }
 
-// The parameters at which the patch shows the direction n, by subdivision: where Newton's method does not
-// settle. Of several, those whose point is nearest.
-std::optional<dvec2> search(const PatchedSphere& sphere, const Net& net, const dvec3& n) {
-  LocalRay ray;  // through the centre
-  if (!set_direction(n, ray)) return std::nullopt;
-  set_normals(ray);
-  set_distances(ray);
-  const Net image = image_of(sphere, net);
-  NetScale scale;
-  dvec2 projected[max_net_size];
-  project_net(points_of(image), ray, projected);
-  for (const dvec4& p : points_of(image)) {
-    scale.position = std::max(scale.position, largest(dvec3(p)));
-    scale.weight = std::max(scale.weight, p.w);
-  }
-  const double error = residual_bound(scale, ray);
-  std::vector<Root> roots;
-  SearchCounts counts;
-  counts.limit = 1 << 12;
-  if (const auto* tensor = std::get_if<TensorNet>(&image))
-    find_roots(TensorShape{tensor->m, tensor->n}, projected, RectangleCell{}, error, roots, counts);
-  else
-    find_roots(TriangleShape{std::get<TriangleNet>(image).n}, projected, TriangleCell{}, error, roots,
-               counts);
-  std::optional<dvec2> best;
-  double least = 1e-6;
-  for (Root root : roots) {
-    settle(image, scale, ray, root);
-    const double off = largest(net_point(image, root.u, root.v) - n);
-    if (off < least) least = off, best = {root.u, root.v};
-  }
-  return best;
-}
-
 // Two steps of Newton's method on the net itself, in coordinates that keep their digits near zero: of
 // singular points the polynomials a and b know only to rounding where they are.
 void polish(const PatchedSphere& sphere, const Net& net, const dvec3& n, dvec2& p) {
@@ -146,29 +109,18 @@ void polish(const PatchedSphere& sphere, const Net& net, const dvec3& n, dvec2& 
 
 template <int K>
 bool steps_from(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, dvec2& p) {
-  const auto& a = patch.axes;
-  const double x = (a[0].x * n.x + a[0].y * n.y) + a[0].z * n.z,
-               y = (a[1].x * n.x + a[1].y * n.y) + a[1].z * n.z,
-               w = 1.0 - ((a[2].x * n.x + a[2].y * n.y) + a[2].z * n.z);
+  const dvec4 local = patch.axes * n;
   Residual<K, double> c;
-  residual_of<K>(inverse.coefficients.data(), x, y, w, c, same);
-  double first2 = 0.0, second2 = 0.0, steep2 = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    two_steps<K>(c, p.x, p.y, first2, second2, steep2, same);
-    if (first2 * second2 <= converged && steep2 <= inverse.steepest2) return true;
-  }
+  residual_of<K>(inverse.coefficients.data(), local.x, local.y, 1.0 - local.z, c, same);
+  for (int k = 0; k < inverse_steps; ++k)
+    if (has_converged(step_towards_zero<K>(c, p.x, p.y, same), inverse.steepest2)) return true;
   return false;
 }
 
-std::optional<PlaceOnSphere> in_owned_cell(const PatchedSphere& sphere, const SphereCell& cell,
-                                           const CellPlace& at, const dvec3& n) {
+std::optional<PlaceOnSphere> in_owned_cell(const PatchedSphere& sphere, const SphereCell& cell, dvec2 p,
+                                           const dvec3& n) {
   const SpherePatch& patch = sphere.patches.patches[static_cast<std::size_t>(cell.owner)];
   const PatchInverse& inverse = sphere.patches.inverses[static_cast<std::size_t>(patch.inverse)];
-  const double a = at.a, b = at.b;
-  const auto start = [&](const float* f) {
-    return ((f[0] + f[1] * a) + f[2] * b) + ((f[3] * a) * a + (f[4] * a + f[5] * b) * b);
-  };
-  dvec2 p(start(cell.u), start(cell.v));
   const bool good =
       inverse.degree == 2 ? steps_from<2>(inverse, patch, n, p) : steps_from<4>(inverse, patch, n, p);
   if (!good) return std::nullopt;
@@ -200,16 +152,20 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
     const PatchInverse& inverse = all.inverses[static_cast<std::size_t>(patch.inverse)];
     const Net& net = nets[static_cast<std::size_t>(patch.patch)];
     dvec2 p(candidate->u, candidate->v);
-    if (invert(inverse, patch, n, 8, p) < 1e-14) {
-      double beyond;
-      p += inverse.middle;
-      const dvec2 nearest = clamp_to(patch, p, beyond);
-      // However far: beside a collapsed side rounding turns the parameter along it by any amount.
-      const dvec2 q = beyond < 1e-3 ? into_domain(sphere, patch, net, p, reach) : nearest;
-      if (shows(sphere, net, q, n, reach)) return PlaceOnSphere{patch.patch, q.x, q.y, patch.outward};
-      if (beyond > 1e-3) continue;
-    }
-    if (const auto found = search(sphere, net, n); found && shows(sphere, net, *found, n, reach))
+    if (!(invert(inverse, patch, n, 8, p) < 1e-14)) continue;
+    double beyond;
+    p += inverse.middle;
+    const dvec2 nearest = clamp_to(patch, p, beyond);
+    // However far: beside a collapsed side rounding turns the parameter along it by any amount.
+    const dvec2 q = beyond < 1e-3 ? into_domain(sphere, patch, net, p, reach) : nearest;
+    if (shows(sphere, net, q, n, reach)) return PlaceOnSphere{patch.patch, q.x, q.y, patch.outward};
+  }
+  // Newton's method settles at none, or where the polynomials have another zero.
+  for (candidate = begin; candidate->patch >= 0; ++candidate) {
+    const SpherePatch& patch = all.patches[static_cast<std::size_t>(candidate->patch)];
+    const Net& net = nets[static_cast<std::size_t>(patch.patch)];
+    const auto found = search_direction(image_of(sphere, net), n);
+    if (found && shows(sphere, net, *found, n, reach))
       return PlaceOnSphere{patch.patch, found->x, found->y, patch.outward};
   }
   return std::nullopt;
@@ -217,47 +173,72 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
 
 }  // namespace
 
-bool meet_sphere(const PatchedSphere& sphere, const LocalRay& ray, SphereRoots& roots) noexcept {
-  dvec3 o = ray.base - sphere.center, d = ray.direction;
-  if (sphere.inverse_radius > 0.0)
-    o *= sphere.inverse_radius, d *= sphere.inverse_radius;
-  else
-    o = sphere.ellipsoid.inverse * o, d = sphere.ellipsoid.inverse * d;
-  const SphereChord<double> c = chord_of(o.x, o.y, o.z, d.x, d.y, d.z, same);
-  if (!(c.rest >= 0.0)) return false;
-  roots.nearest = {c.x, c.y, c.z}, roots.direction = d;
-  roots.middle = c.middle, roots.half = std::sqrt(c.rest * c.inverse_length2);
-  roots.inverse_length2 = c.inverse_length2;
+bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& frame, LocalRay& ray,
+                 SphereRoots& roots) noexcept {
+  const dvec3 &o = ray.base, &d = ray.direction;
+  const double inverse_length2 = 1.0 / ray.length2;
+  // As set_base, about a point that is no double.
+  TwoFold away[3];
+  dvec3 low;
+  for (int k = 0; k < 3; ++k) {
+    const TwoFold center = two_sum(frame[k], sphere.center[k]);
+    away[k] = two_sum(center.high, -origin[k]);
+    low[k] = away[k].low + center.low;
+  }
+  ray.slide = ((away[0].high * d.x + away[1].high * d.y) + away[2].high * d.z) * inverse_length2;
+  if (!(std::fabs(ray.slide) < 0x1p990)) return false;
+  for (int k = 0; k < 3; ++k) ray.base[k] = std::fma(ray.slide, d[k], -away[k].high) - low[k];
+
+  double rest;
+  if (sphere.inverse_radius > 0.0) {
+    const double radius = sphere.ellipsoid.uniform_radius;
+    const SphereChord<double> c =
+        chord_of(o.x, o.y, o.z, d.x, d.y, d.z, inverse_length2, radius * radius, same);
+    rest = c.rest, roots.middle = roots.from_middle = c.middle;
+    roots.inverse_length2 = inverse_length2;
+    roots.from = sphere.inverse_radius * o, roots.direction = sphere.inverse_radius * d;
+  } else {
+    const dvec3 p = sphere.ellipsoid.inverse * o;
+    roots.direction = sphere.ellipsoid.inverse * d;
+    roots.inverse_length2 = 1.0 / glm::dot(roots.direction, roots.direction);
+    // The point nearest to the centre is another here.
+    roots.middle = -glm::dot(p, roots.direction) * roots.inverse_length2, roots.from_middle = 0.0;
+    roots.from = p + roots.middle * roots.direction;
+    rest = 1.0 - glm::dot(roots.from, roots.from);
+  }
+  if (!(rest >= 0.0)) return false;
+  roots.half = std::sqrt(rest * roots.inverse_length2);
   return true;
 }
 
-dvec3 sphere_point(const SphereRoots& r, int side) noexcept {
-  const SphereChord<double> c{r.nearest.x,   r.nearest.y, r.nearest.z, r.direction.x,    r.direction.y,
-                              r.direction.z, r.middle,    0.0,         r.inverse_length2};
-  dvec3 n;
-  point_at(c, side < 0 ? -r.half : r.half, n.x, n.y, n.z, same);
-  return n;
+SpherePoint sphere_point(const SphereRoots& r, int side) noexcept {
+  const double way = side < 0 ? r.from_middle - r.half : r.from_middle + r.half;
+  SpherePoint out;
+  out.n = out.rough = r.from + way * r.direction;
+  settle_point(out.n.x, out.n.y, out.n.z, same);
+  return out;
 }
 
 std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
-                                             const dvec3& n, const Reach& reach) noexcept {
-  const CellPlace at = cell_at(n, sphere.patches.cells_a_side);
+                                             const SpherePoint& point, const Reach& reach) noexcept {
+  const CellPlace at = cell_at(point.rough, sphere.patches.cells_a_side);
   const SphereCell& cell = sphere.patches.cells[at.cell];
-  if (cell.owner >= 0)
-    if (const auto place = in_owned_cell(sphere, cell, at, n)) return place;
+  dvec2 start;
+  if (const SphereCell& mine = cell_around(sphere.patches, at, start); mine.owner >= 0)
+    if (const auto place = in_owned_cell(sphere, mine, start, point.n)) return place;
   if (cell.others >= 0)
     return among_candidates(sphere, nets, &sphere.patches.candidates[static_cast<std::size_t>(cell.others)],
-                            n, reach);
+                            point.n, reach);
   if (cell.owner < 0) return std::nullopt;
-  const SphereCandidate alone[2] = {{cell.owner, cell.u[0], cell.v[0]}, {-1, 0.0f, 0.0f}};
-  return among_candidates(sphere, nets, alone, n, reach);
+  const SphereCandidate alone[2] = {{cell.owner, cell.start[0][0], cell.start[0][1]}, {-1, 0.0f, 0.0f}};
+  return among_candidates(sphere, nets, alone, point.n, reach);
 }
 
-bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n,
+bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const SpherePoint& point,
             const Reach& reach) noexcept {
-  const CellPlace at = cell_at(n, sphere.patches.cells_a_side);
+  const CellPlace at = cell_at(point.rough, sphere.patches.cells_a_side);
   const SphereCell& cell = sphere.patches.cells[at.cell];
-  return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, n, reach).has_value();
+  return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, point, reach).has_value();
 }
 
 std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int cells_a_side,
@@ -266,7 +247,9 @@ std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int 
   std::vector<PatchedSphere> out;
   for (const EllipsoidFit& fit : fit_ellipsoids(patches)) {
     PatchedSphere sphere{Ellipsoid(fit.linear), fit.center, 0.0, 0.0, {}};
-    if (sphere.ellipsoid.uniform_radius > 0.0) sphere.inverse_radius = 1.0 / sphere.ellipsoid.uniform_radius;
+    // The square of its radius must be a number, too.
+    if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
+      sphere.inverse_radius = 1.0 / r;
     std::vector<Net> nets;
     std::vector<NetScale> scales;
     for (const std::size_t k : fit.patches) {

@@ -13,7 +13,7 @@ namespace rondure {
 struct PatchedSphere {
   Ellipsoid ellipsoid;
   dvec3 center{0.0};
-  double inverse_radius = 0.0;  // of a sphere
+  double inverse_radius = 0.0;  // of a sphere, whose radius is the ellipsoid's; 0 of others
   double outward = 0.0;         // what all patches have in common, as in SpherePatch; 0: nothing
   SpherePatches patches;
 };
@@ -24,15 +24,24 @@ std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int 
 
 // What the sphere's two roots have in common.
 struct SphereRoots {
-  dvec3 nearest, direction;  // of the ray, in the unit sphere's space
-  double middle, half;       // roots at middle -+ half, from the local ray's base
-  double inverse_length2;
+  dvec3 from, direction;   // of the ray, about the centre, in the unit sphere's space
+  double middle, half;     // roots at middle -+ half, from the local ray's base
+  double from_middle;      // the same from `from`: 0 where that is the middle
+  double inverse_length2;  // of the ray's own direction; of an ellipsoid, of `direction`
 };
 
-// False when the ray misses the whole ellipsoid.
-bool meet_sphere(const PatchedSphere& sphere, const LocalRay& ray, SphereRoots& roots) noexcept;
-// On the unit sphere; side -1: where the ray enters, 1: where it leaves.
-dvec3 sphere_point(const SphereRoots& roots, int side) noexcept;
+// False when the ray misses the whole ellipsoid. `ray` is moved to where it passes the centre, the surface
+// being at `frame`; its direction must be set.
+bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& frame, LocalRay& ray,
+                 SphereRoots& roots) noexcept;
+
+// A point of the unit sphere.
+struct SpherePoint {
+  dvec3 n;
+  dvec3 rough;  // the same, a few roundoffs beside it: its cell is known by this, before n is
+};
+// Side -1: where the ray enters, 1: where it leaves.
+SpherePoint sphere_point(const SphereRoots& roots, int side) noexcept;
 
 struct PlaceOnSphere {
   std::int32_t patch;
@@ -51,9 +60,9 @@ struct Reach {
 // a point along its ray by much more, where that grazes: a neighbour on a sphere of its own, or none, meets
 // the ray that far on. Hence the point of a patch counts too that the ray passes that closely within reach.
 std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
-                                             const dvec3& n, const Reach& reach) noexcept;
+                                             const SpherePoint& point, const Reach& reach) noexcept;
 // Whether some patch holds it: without parameters, for the most part.
-bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const dvec3& n,
+bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const SpherePoint& point,
             const Reach& reach) noexcept;
 
 // How far beside a patch a point still counts, relative to the semi-axes: 12 for the patch's own distance

@@ -67,9 +67,9 @@ namespace {
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
-// As many cells for the spheres among the surfaces, of 56 bytes, from a side of `most_cells` down.
+// As many cells for the spheres among the surfaces, of 96 bytes, from a side of `most_cells` down.
 constexpr double cell_budget = 0x1p20;
-constexpr int most_cells = 32, fewest_cells = 4;
+constexpr int most_cells = 20, fewest_cells = 4;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
@@ -149,7 +149,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   if (self.few.size() == 1) {
     const unsigned k = self.few[0].surface;
     if (const CompiledSurface& only = *self.compiled[k]; only.spheres.size() == 1)
-      self.alone = SphereTarget{&only.spheres[0], self.origins[k], static_cast<int>(k)};
+      self.alone = target_at(only.spheres[0], self.origins[k], static_cast<int>(k));
   }
   self.hierarchy = std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit_by_name);
 }
@@ -161,14 +161,15 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Hit Tracer::closest(const Ray& ray) const noexcept {
   if (implementation_->alone) {
     Hit hit;
-    unsigned char done;
-    closest_on_sphere(*implementation_->alone, &ray, 1, &hit, &done);
-    if (done) return hit;
+    if (closest_on_sphere(*implementation_->alone, ray, hit) != RayAnswer::unknown) return hit;
   }
   return implementation_->closest(ray);
 }
 
 bool Tracer::occluded(const Ray& ray) const noexcept {
+  if (implementation_->alone)
+    if (const RayAnswer answer = sphere_occludes(*implementation_->alone, ray); answer != RayAnswer::unknown)
+      return answer == RayAnswer::hit;
   // Beyond the largest t there is nothing that a short ray could be kept from.
   if (is_short(ray)) return static_cast<bool>(implementation_->closest(ray));
   Query q = implementation_->make_query(ray, Mode::any);
@@ -186,7 +187,7 @@ void Tracer::closest(std::span<const Ray> rays, std::span<Hit> hits) const noexc
     const std::size_t count = std::min(some, rays.size() - first);
     closest_on_sphere(*implementation_->alone, &rays[first], count, &hits[first], done);
     for (std::size_t k = 0; k < count; ++k)
-      if (!done[k]) hits[first + k] = implementation_->closest(rays[first + k]);
+      if (!done[k]) hits[first + k] = closest(rays[first + k]);
   }
 }
 

@@ -301,7 +301,7 @@ TEST_CASE("The quadric solver finds the same", "[hits]") {
                                load(60'000, 24'000)));
     require_clean(tally, std::string("quadric, ") + name);
     // Half of what the others are allowed.
-    CHECK(tally.position.error() <= 4.0 * ulp);
+    CHECK(tally.position.ratio() <= 0.5);
   }
 }
 

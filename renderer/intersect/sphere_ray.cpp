@@ -1,0 +1,156 @@
+#include "renderer/intersect/sphere_ray.h"
+
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/intersect/sphere_ray.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "renderer/intersect/ellipsoid_fit.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rondure {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#include "renderer/intersect/sphere_kernel-inl.h"
+#include "renderer/intersect/sphere_spread-inl.h"
+#include "renderer/intersect/sphere_triple-inl.h"
+
+template <int K>
+HWY_INLINE bool find_parameters(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n,
+                                double& u, double& v) {
+  const auto& a = patch.axes;
+  const Triple local = (Triple::of_four(&a[0].x) * Triple(n.x) + Triple::of_four(&a[1].x) * Triple(n.y)) +
+                       Triple::of_four(&a[2].x) * Triple(n.z);
+  const Spread<K> c(inverse, local.x(), local.y(), 1.0 - local.z());
+  for (int k = 0; k < inverse_steps; ++k)
+    if (has_converged(c.step(u, v), inverse.steepest2)) return true;
+  return false;
+}
+
+// Where the ray meets the sphere first, within its range.
+struct Meeting {
+  double t, t_error;
+  dvec3 point;  // of the unit sphere
+  CellPlace cell;
+};
+
+static_assert(offsetof(Ray, direction) == 3 * sizeof(double) && offsetof(Ray, t_min) == 6 * sizeof(double));
+
+HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, Meeting& out) {
+  const double* numbers = &ray.origin.x;
+  const Triple o = Triple::of_four(numbers), d = Triple::of_four(numbers + 3),
+               center = Triple::of_four(&target.center.x), center_low = Triple::of_four(&target.center_low.x);
+  const double length2 = dot(d, d);
+  // As set_direction, whose power of two changes no bit of what follows where that does not leave doubles'
+  // range.
+  if (!(length2 > shortest_direction2 && length2 < longest_direction2)) return RayAnswer::unknown;
+  const double inverse_length2 = 1.0 / length2;
+
+  // As meet_sphere.
+  const Triple away = center - o, taken = away - center, low = (center - (away - taken)) - (o + taken);
+  const double slide = dot(away, d) * inverse_length2;
+  if (!(std::fabs(slide) < farthest_slide)) return RayAnswer::unknown;
+  const Triple from = fused(Triple(slide), d, away) - (low + center_low);
+
+  // As chord_of.
+  const double back = 0.0 - dot(from, d), middle = back * inverse_length2;
+  const double rest = (target.radius2 - dot(from, from)) + back * middle;
+  if (!(rest >= 0.0)) return RayAnswer::miss;
+  // Beside tangency the bound on t takes another form.
+  if (rest < target.stretch) return RayAnswer::unknown;
+  const double half = std::sqrt(rest * inverse_length2), enter = middle - half, leave = middle + half;
+  const double t_enter = slide + enter, t_leave = slide + leave;
+  // Which of two at the same t comes first is not for this to say.
+  if (t_enter == t_leave) return RayAnswer::unknown;
+  const bool enters = t_enter >= ray.t_min && t_enter <= ray.t_max,
+             leaves = t_leave >= ray.t_min && t_leave <= ray.t_max;
+  if (!enters && !leaves) return RayAnswer::miss;
+  out.t = enters ? t_enter : t_leave;
+
+  // As sphere_point.
+  const Triple shrink(target.inverse_radius);
+  const Triple rough = shrink * from + Triple(enters ? enter : leave) * (shrink * d);
+  out.cell = cell_at(rough.vector(), target.sphere->patches.cells_a_side);
+  const double off = (1.0 - dot(rough, rough)) * 0.5;
+  out.point = (rough + Triple(off) * rough).vector();
+  out.t_error = 2.0 * (target.stretch * inverse_length2 / half) + 0x1p-52 * std::fabs(out.t);
+  return RayAnswer::hit;
+}
+
+// The patch of a cell that holds the point, by the ordinary way; none where it takes more.
+HWY_INLINE const SpherePatch* place(const SpherePatches& patches, const Meeting& at, dvec2& p) {
+  const SphereCell& cell = cell_around(patches, at.cell, p);
+  if (cell.owner < 0) return nullptr;
+  const SpherePatch& patch = patches.patches[static_cast<std::size_t>(cell.owner)];
+  const PatchInverse& inverse = patches.inverses[static_cast<std::size_t>(patch.inverse)];
+  const bool good = inverse.degree == 2 ? find_parameters<2>(inverse, patch, at.point, p.x, p.y)
+                                        : find_parameters<4>(inverse, patch, at.point, p.x, p.y);
+  if (!good || !in_domain(inverse, patch.triangle, p)) return nullptr;
+  p += inverse.middle;
+  return &patch;
+}
+
+RayAnswer closest(const SphereTarget& target, const Ray& ray, Hit& hit) {
+  Meeting at;
+  if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
+  const PatchedSphere& sphere = *target.sphere;
+  dvec2 p;
+  const SpherePatch* patch = place(sphere.patches, at, p);
+  if (!patch) return RayAnswer::unknown;
+  const double radius = sphere.ellipsoid.uniform_radius;
+  hit.t = at.t, hit.t_error = at.t_error;
+  hit.surface = target.surface, hit.patch = patch->patch, hit.u = p.x, hit.v = p.y;
+  hit.point = target.frame + (sphere.center + radius * at.point);
+  hit.normal = patch->outward * at.point;
+  return RayAnswer::hit;
+}
+
+RayAnswer occludes(const SphereTarget& target, const Ray& ray) {
+  Meeting at;
+  if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
+  const SpherePatches& patches = target.sphere->patches;
+  const SphereCell& cell = patches.cells[at.cell.cell];
+  dvec2 p;
+  if ((cell.owner >= 0 && cell.others < 0) || place(patches, at, p)) return RayAnswer::hit;
+  return RayAnswer::unknown;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace rondure
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rondure {
+
+HWY_EXPORT(closest);
+HWY_EXPORT(occludes);
+
+SphereTarget target_at(const PatchedSphere& sphere, const dvec3& frame, int surface) {
+  SphereTarget target{&sphere, surface, frame, dvec4(0.0), dvec4(0.0), 0.0, 0.0, 0.0};
+  for (int k = 0; k < 3; ++k) {
+    const TwoFold sum = two_sum(frame[k], sphere.center[k]);
+    target.center[k] = sum.high, target.center_low[k] = sum.low;
+  }
+  const double radius = sphere.ellipsoid.uniform_radius;
+  target.radius2 = radius * radius, target.inverse_radius = sphere.inverse_radius;
+  target.stretch = ellipsoid_error(sphere.ellipsoid) * radius;
+  return target;
+}
+
+RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, Hit& hit) noexcept {
+  if (!(target.inverse_radius > 0.0) || ray.start.surface == target.surface) return RayAnswer::unknown;
+  return HWY_DYNAMIC_DISPATCH(closest)(target, ray, hit);
+}
+
+RayAnswer sphere_occludes(const SphereTarget& target, const Ray& ray) noexcept {
+  if (!(target.inverse_radius > 0.0) || ray.start.surface == target.surface) return RayAnswer::unknown;
+  return HWY_DYNAMIC_DISPATCH(occludes)(target, ray);
+}
+
+}  // namespace rondure
+#endif
