@@ -245,7 +245,7 @@ void require_clean(const Tally& tally, const std::string& what) {
 // Rays for one of the default run: a hundred in a soak (10^7 random rays at least for each family and
 // solver), a twentieth under the sanitizers, which are that much slower.
 double effort() {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return 0.05;
 #else
   return std::getenv("RONDURE_SOAK") ? 100.0 : 1.0;
