@@ -274,7 +274,7 @@ class Grid {
         dvec2& p = at[i][j];
         p = i == 1 && j == 1 ? touch.at : j == 1 ? at[i == 0 ? 1 : i - 1][1] : at[i][j == 0 ? 1 : j - 1];
         const double moved =
-            invert(inverse_of(patch), out_.patches[patch], direction(k, nodes[i], nodes[j]), 12, p);
+            invert(inverse_of(patch), out_.patches[patch], direction(k, nodes[i], nodes[j]), 12, p, 1e-5);
         const double beyond = outside(out_.patches[patch], p + middle(patch));
         if (!(moved < 1e-9) || !(beyond < (fills ? 0.0 : 0.5))) return false;
       }

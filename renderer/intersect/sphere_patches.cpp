@@ -52,7 +52,8 @@ bool alike(const Net& a, const Net& b) {
 
 }  // namespace
 
-double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p) {
+double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p,
+              double enough) {
   const dvec4 local = patch.axes * n;
   const double x = local.x, y = local.y, w = 1.0 - local.z;
   const int k = inverse.degree;
@@ -79,7 +80,7 @@ double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3
     p -= move;
     moved = std::max(std::fabs(move.x), std::fabs(move.y));
     if (!(moved < 4.0)) return INFINITY;
-    if (moved < 1e-9) return moved * moved;  // as small as the next step would be, at least
+    if (moved < enough) return moved * moved;
   }
   return moved;
 }

@@ -160,7 +160,9 @@ bool has_converged(const Stride& stride, double steepest2) {
 }
 
 // Newton's method for the parameters (less the middle) at which the patch shows the point n, from a start; at
-// most `steps` full steps. How far the last step went: below 1e-12 it has converged.
-double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p);
+// most `steps` full steps, or until one is smaller than `enough`. How far that went, squared: as far as the
+// next would go, at least. Or, of the last of all steps, how far it went.
+double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p,
+              double enough = 1e-9);
 
 }  // namespace rondure

@@ -67,8 +67,9 @@ namespace {
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
-// As many cells for the spheres among the surfaces, of 96 bytes, from a side of `most_cells` down.
-constexpr double cell_budget = 0x1p20;
+// As many cells for the spheres among the surfaces, of 96 bytes and some microseconds, from a side of
+// `most_cells` down.
+constexpr double cell_budget = 0x1p17;
 constexpr int most_cells = 20, fewest_cells = 4;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;

@@ -103,7 +103,8 @@ class Spheres {
 };
 
 // The tiling at every place; or, `distinct`, as many with nets of their own.
-std::vector<TracedSurface> tilings(const Surface& tiling, const std::vector<dvec3>& places, bool distinct) {
+std::vector<TracedSurface> tilings(const Surface& tiling, const std::vector<dvec3>& places, bool distinct,
+                                   Solver solver) {
   std::vector<TracedSurface> out;
   for (std::size_t k = 0; k < places.size(); ++k) {
     Surface surface = tiling;
@@ -111,7 +112,7 @@ std::vector<TracedSurface> tilings(const Surface& tiling, const std::vector<dvec
     if (distinct)
       for (Net& net : surface.patches)
         for (dvec4& p : points_of(net)) p *= 1.0 + 0x1p-30 * static_cast<double>(k);
-    out.push_back({std::move(surface), Solver::newton});
+    out.push_back({std::move(surface), solver});
   }
   return out;
 }
@@ -121,7 +122,7 @@ struct Contender {
   std::vector<double> time = {}, ratio = {};
 };
 
-void print_counts(const Surface& tiling, int count, int rounds) {
+void print_counts(const Surface& tiling, Solver solver, int count, int rounds) {
   const std::vector<dvec3> places = grid(count);
   const std::vector<Ray> rays = rays_at(places, 20'000);
   std::size_t net_bytes = 0;
@@ -131,7 +132,7 @@ void print_counts(const Surface& tiling, int count, int rounds) {
   double build[2], bytes[2];
   std::optional<Tracer> tracers[2];
   for (const bool distinct : {false, true}) {
-    std::vector<TracedSurface> surfaces = tilings(tiling, places, distinct);
+    std::vector<TracedSurface> surfaces = tilings(tiling, places, distinct, solver);
     build[distinct] = seconds([&] { tracers[distinct].emplace(std::move(surfaces)); });
     bytes[distinct] =
         static_cast<double>(tracers[distinct]->statistics().bytes) - static_cast<double>(net_bytes) * count;
@@ -160,12 +161,17 @@ void print_counts(const Surface& tiling, int count, int rounds) {
 
 void print_scale(int rounds, int most) {
   const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
-  fmt::print("\nmany spheres, ns a ray, one thread; build on all threads; bytes beyond the nets\n");
-  fmt::print("  {:>8} {:>8} | {:>8} {:>8} {:>11} {:>9} | {:>8} {:>8} {:>11} {:>9} | hits\n", "", "Embree",
-             "tilings,", "", "patches/s", "bytes/", "tilings,", "", "patches/s", "bytes/");
-  fmt::print("  {:>8} {:>8} | {:>8} {:>8} {:>11} {:>9} | {:>8} {:>8} {:>11} {:>9} |\n", "objects", "spheres",
-             "shared", "ratio", "built", "patch", "distinct", "ratio", "built", "patch");
-  for (int count = 100; count <= most; count *= 10) print_counts(cube, count, rounds);
+  for (const Solver solver : {Solver::quadric, Solver::newton}) {
+    fmt::print("\nmany spheres, {}, ns a ray, one thread; build on all threads; bytes beyond the nets\n",
+               solver == Solver::newton ? "newton" : "quadric");
+    fmt::print("  {:>8} {:>8} | {:>8} {:>8} {:>11} {:>9} | {:>8} {:>8} {:>11} {:>9} | hits\n", "", "Embree",
+               "tilings,", "", "patches/s", "bytes/", "tilings,", "", "patches/s", "bytes/");
+    fmt::print("  {:>8} {:>8} | {:>8} {:>8} {:>11} {:>9} | {:>8} {:>8} {:>11} {:>9} |\n", "objects",
+               "spheres", "shared", "ratio", "built", "patch", "distinct", "ratio", "built", "patch");
+    // A grid of cells takes a millisecond a tiling.
+    const int last = solver == Solver::quadric ? std::min(most, 10'000) : most;
+    for (int count = 100; count <= last; count *= 10) print_counts(cube, solver, count, rounds);
+  }
 }
 
 }  // namespace rondure::bench
