@@ -27,8 +27,8 @@ struct Image {
 // Loads the module, so that its absence is known before hours of work. Throws std::runtime_error.
 void require_image_module();
 
-// Any format that OpenImageIO knows. 8- and 16-bit files are taken for sRGB; grey is spread over three
-// channels. Throws std::runtime_error naming the file; non-finite and negative values are errors too.
+// OpenEXR, Radiance HDR, PNG, JPEG, TIFF, PNM (with PFM), TGA or BMP. 8- and 16-bit files are taken for sRGB;
+// grey is spread over three channels. Throws std::runtime_error naming the file; non-finite and negative values are errors too.
 Image read_image(const std::string& path);
 
 // Draws white text of a size in pixels on a picture as below; `at` is the left end of its baseline, or with

@@ -5,6 +5,8 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "renderer/bezier/quotient.h"
+
 namespace rondure {
 namespace {
 
@@ -23,11 +25,11 @@ Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(glm::inverse(map))
   // them all.
   extent = std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
   const double r = glm::length(map[0]);
-  const double skew =
-      std::fmax(std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),
-                std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
-                          std::fabs(glm::dot(map[2], map[0]))) /
-                    r);
+  const double skew = std::fmax(
+      std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),
+      quotient(std::fmax(std::fmax(std::fabs(glm::dot(map[0], map[1])), std::fabs(glm::dot(map[1], map[2]))),
+                         std::fabs(glm::dot(map[2], map[0]))),
+               r));
   if (skew <= 8.0 * unit_roundoff * r) uniform_radius = extent = r;
 }
 

@@ -82,7 +82,7 @@ const std::vector<TypeDoc>& light_docs() {
       {"constant", "The same radiance from every direction.", {{"radiance", "colour >= 0", "1", "radiance"}}},
       {"environment",
        "An equirectangular image at infinity: z up, the image's centre column toward x.",
-       {{"file", "path", "", "image file (EXR, HDR, PNG, ...), relative to the scene"},
+       {{"file", "path", "", "image file (EXR, HDR, PNG, JPEG, TIFF, PNM, TGA, BMP), relative to the scene"},
         {"scale", "colour >= 0", "1", "factor on the image"},
         {"rotate", "degrees, or three of them", "0", "turn about z, or about x, then y, then z"}}},
       {"point",

@@ -198,6 +198,12 @@ TEST_CASE("broken environment images are refused in bounded memory", "[commands]
       {"negative.hdr", radiance + "-Y -8 +X -16\n", ""},
       {"huge.pfm", "PF\n1000000 1000000\n-1.0\n", "it claims 1000000 x 1000000 pixels"},
       {"nan.pfm", std::string("PF\n1 1\n-1.0\n\x00\x00\xc0\x7f\x00\x00\x00\x00\x00\x00\x00\x00", 24), ""},
+      {"dot.gif",
+       std::string(
+           "GIF89a\x01\x00\x01\x00\x80\x00\x00\x00\x00\x00\xff\xff\xff,\x00\x00\x00\x00\x01\x00\x01\x00"
+           "\x00\x02\x02\x44\x01\x00;",
+           35),
+       "its format is gif; known: OpenEXR"},
       {"huge.ppm", "P6\n60000 60000\n255\n", "it claims 60000 x 60000 pixels"},
   };
   const auto scene_with = [&](const std::string& file) {
