@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/hull.h"
 
@@ -36,15 +37,15 @@ template <class Shape>
 Along along_graph(const Shape& shape, const dvec2* f, const Axes& axes, double x, double& y) {
   SecondOrder<dvec2> s = shape.second(f, axes.to_cell(x, y));
   Jet g = axes.jet(s, 0);
-  double miss = g.value / g.y;
+  double miss = quotient(g.value, g.y);  // no number where the graph is upright: what follows refuses that
   for (int k = 0; k < 4 && std::fabs(miss) > 1e-15; ++k) {
     y -= miss;
     s = shape.second(f, axes.to_cell(x, y));
     g = axes.jet(s, 0);
-    miss = g.value / g.y;
+    miss = quotient(g.value, g.y);
   }
   const Jet h = axes.jet(s, 1);
-  const double dy = -g.x / g.y, ddy = -(g.xx + dy * (2.0 * g.xy + dy * g.yy)) / g.y;
+  const double dy = quotient(-g.x, g.y), ddy = quotient(-(g.xx + dy * (2.0 * g.xy + dy * g.yy)), g.y);
   // To first order, the value on the graph itself.
   return {h.value - h.y * miss, h.x + h.y * dy, h.xx + dy * (2.0 * h.xy + dy * h.yy) + h.y * ddy, dy, miss};
 }

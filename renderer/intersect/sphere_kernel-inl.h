@@ -5,18 +5,20 @@
 
 // A line against a sphere about zero, from the point (x, y, z) that is nearest to it but for rounding: roots
 // at middle -+ half, half being the square root of rest / direction . direction. `rest`: the squared radius
-// less the line's squared distance, negative where the line misses.
+// less the line's squared distance, negative where the line misses. `passed2`: the squared distance of the
+// point from the middle, of which each has its roundings.
 template <class V>
 struct SphereChord {
-  V middle, rest;
+  V middle, rest, passed2;
 };
 
 // So near the middle the quadratic's discriminant has no cancellation. `inverse_length2`: of the direction.
 template <class V, class Lift>
 [[gnu::always_inline]] inline SphereChord<V> chord_of(V x, V y, V z, V dx, V dy, V dz, V inverse_length2,
                                                       V radius2, Lift lift) {
-  const V back = lift(0.0) - ((x * dx + y * dy) + z * dz), middle = back * inverse_length2;
-  return {middle, (radius2 - ((x * x + y * y) + z * z)) + back * middle};
+  const V back = lift(0.0) - ((x * dx + y * dy) + z * dz), middle = back * inverse_length2,
+          passed2 = back * middle;
+  return {middle, (radius2 - ((x * x + y * y) + z * z)) + passed2, passed2};
 }
 
 // Brings a point to the unit sphere by half a Newton step.

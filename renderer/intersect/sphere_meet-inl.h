@@ -43,6 +43,7 @@ HWY_INLINE bool meet(const SphereTarget& target, const double* const* rays, Grou
 
   const SphereChord<V> chord =
       chord_of(from[0], from[1], from[2], dx, dy, dz, inverse_length2, lift(target.radius2), lift);
+  known = hn::And(known, hn::Le(chord.passed2, lift(farthest_middle2 * target.radius2)));
   const M meets = hn::Ge(chord.rest, zero);
   // Beside tangency the bound on t takes another form.
   known = hn::And(known, hn::Or(hn::Not(meets), hn::Ge(chord.rest, lift(target.stretch))));

@@ -57,8 +57,9 @@ HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, Meeting& o
   const Triple from = fused(Triple(slide), d, away) - (low + center_low);
 
   // As chord_of.
-  const double back = 0.0 - dot(from, d), middle = back * inverse_length2;
-  const double rest = (target.radius2 - dot(from, from)) + back * middle;
+  const double back = 0.0 - dot(from, d), middle = back * inverse_length2, passed2 = back * middle;
+  const double rest = (target.radius2 - dot(from, from)) + passed2;
+  if (!(passed2 <= farthest_middle2 * target.radius2)) return RayAnswer::unknown;
   if (!(rest >= 0.0)) return RayAnswer::miss;
   // Beside tangency the bound on t takes another form.
   if (rest < target.stretch) return RayAnswer::unknown;

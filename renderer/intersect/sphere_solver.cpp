@@ -192,8 +192,14 @@ bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& 
   double rest;
   if (sphere.inverse_radius > 0.0) {
     const double radius = sphere.ellipsoid.uniform_radius;
-    const SphereChord<double> c =
-        chord_of(o.x, o.y, o.z, d.x, d.y, d.z, inverse_length2, radius * radius, same);
+    const auto chord = [&] {
+      return chord_of(o.x, o.y, o.z, d.x, d.y, d.z, inverse_length2, radius * radius, same);
+    };
+    SphereChord<double> c = chord();
+    if (!(c.passed2 <= farthest_middle2 * radius * radius)) {
+      ray.base += c.middle * d, ray.slide += c.middle;
+      c = chord();
+    }
     rest = c.rest, roots.middle = roots.from_middle = c.middle;
     roots.inverse_length2 = inverse_length2;
     roots.from = sphere.inverse_radius * o, roots.direction = sphere.inverse_radius * d;

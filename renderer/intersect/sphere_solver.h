@@ -30,6 +30,11 @@ struct SphereRoots {
   double inverse_length2;  // of the ray's own direction; of an ellipsoid, of `direction`
 };
 
+// Of a line's point about a sphere's centre: how far from the middle of its chord, squared and in radii, it
+// may be for the chord to be found from there. Rays come from 2^53 radii away before rounding takes them so
+// far.
+inline constexpr double farthest_middle2 = 4.0;
+
 // False when the ray misses the whole ellipsoid. `ray` is moved to where it passes the centre, the surface
 // being at `frame`; its direction must be set.
 bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& frame, LocalRay& ray,

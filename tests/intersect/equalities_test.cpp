@@ -145,9 +145,12 @@ struct Place {
   double t;
 };
 
-// A ray that meets a flat patch twice runs within it: wherever it is nearer than `band`, any t is right.
-bool within_a_plane(const Surface& surface, const Ray& ray, const std::vector<Place>& places, double band) {
+// A ray that meets a flat patch twice, or leaves its plane by no more than `band` on the way across the patch,
+// runs within it: wherever it is nearer than `band`, any t is right, and none.
+bool within_a_plane(const Surface& surface, const Ray& ray, double radius, const std::vector<Place>& places,
+                    double band) {
   std::size_t near = 0;
+  double steepest = 0.0;
   for (const Place& place : places) {
     const auto* net = std::get_if<TriangleNet>(&surface.patches[static_cast<std::size_t>(place.patch)]);
     if (!net || net->n != 1) return false;
@@ -157,8 +160,9 @@ bool within_a_plane(const Surface& surface, const Ray& ray, const std::vector<Pl
     // Rounding of the point itself, which is a few radii away from the origin of the ray.
     near += std::fabs(glm::dot(normal, point - corner(0, 0))) <=
             band + 8.0 * unit_roundoff * (glm::length(ray.origin) + place.t * glm::length(ray.direction));
+    steepest = std::max(steepest, std::fabs(glm::dot(normal, glm::normalize(ray.direction))));
   }
-  return near == places.size() && near > 1;
+  return near == places.size() && (near > 1 || 2.0 * radius * steepest <= band);
 }
 
 // Where either answer is right: within `band`, in scene units, of touching the surface, or of its rim.
@@ -184,7 +188,7 @@ bool in_band(const Subject& subject, const Ray& ray, double radius, double band,
         off_line(ray, surface.origin + net_point(net, rim.x, rim.y)) <= 2.0 * band)
       return true;
   }
-  if (within_a_plane(surface, ray, places, band)) return true;
+  if (within_a_plane(surface, ray, radius, places, band)) return true;
   // Of a sphere the distance from the centre tells.
   if (subject.sphere) return std::fabs(off_line(ray, surface.origin) - 1.0) <= band;
   const oracle::Meeting meeting = oracle::meet(surface, ray, 2.0 * band / radius);

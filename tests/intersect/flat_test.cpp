@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/certificate.h"
 #include "tests/catch.h"
@@ -52,7 +53,7 @@ double exact_t(const Ray& ray) {
     above += static_cast<Quad>(n[k]) * (static_cast<Quad>(corner[k]) - static_cast<Quad>(ray.origin[k]));
     rate += static_cast<Quad>(n[k]) * static_cast<Quad>(ray.direction[k]);
   }
-  return static_cast<double>(above / rate);
+  return static_cast<double>(quotient(above, rate));
 }
 
 }  // namespace
