@@ -111,7 +111,10 @@ TEST_CASE("Rays met together get the bits that each gets alone, on every instruc
         }
         for (std::size_t k = 0; k < rays.size(); ++k) wrong += !same_bits(together[k], expected[k]);
       }
-      for (std::size_t k = 0; k < rays.size(); ++k) wrong += !same_bits(tracer.closest(rays[k]), expected[k]);
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        wrong += !same_bits(tracer.closest(rays[k]), expected[k]);
+        wrong += tracer.occluded(rays[k]) != static_cast<bool>(expected[k]);
+      }
     }
     use_instruction_set("");
     const auto occluded = std::make_unique<bool[]>(rays.size());
