@@ -26,7 +26,7 @@ Camera look_at(Projection projection, const dvec3& origin, const dvec3& target, 
   camera.origin = origin;
   camera.forward = view / distance;
   const double size = std::max({std::fabs(up.x), std::fabs(up.y), std::fabs(up.z)});
-  const dvec3 right = glm::cross(camera.forward, up / size);  // NaN where `up` is zero
+  const dvec3 right = size > 0.0 ? glm::cross(camera.forward, up / size) : dvec3(0.0);
   // A few ulps of rounding in the cross product of parallel vectors must not pass for a direction.
   if (!(glm::length(right) > 1e-12)) {
     throw std::invalid_argument("the camera's up is zero or parallel to its view");
