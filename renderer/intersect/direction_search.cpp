@@ -32,7 +32,10 @@ std::optional<dvec2> search_direction(const Net& net, const dvec3& n) {
   std::optional<dvec2> best;
   double least = 1e-6;
   for (Root root : roots) {
-    settle(net, scale, ray, root);
+    // The net is what it is: what is left of the root counts at the size of the point, not of the greatest
+    // weights, beside which a small one would leave many roundoffs.
+    const dvec4 at = net_first(net, root.u, root.v).value;
+    settle(net, {largest(dvec3(at)), at.w}, ray, root);
     const double off = largest(net_point(net, root.u, root.v) - n);
     if (off < least) least = off, best = {root.u, root.v};
   }

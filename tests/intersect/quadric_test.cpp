@@ -270,3 +270,31 @@ TEST_CASE("The poles of octants are met whichever way they are turned", "[solver
   CHECK(passed == 0);
   CHECK(rays > 60000);
 }
+
+// Where a patch is singular and its weight is a hundredth of its greatest: what a search leaves is to be
+// small at the size of the point.
+TEST_CASE("Singular corners of small weight are met", "[solvers]") {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (const int weight : {1, 30, 100}) {
+    const Surface surface = build_family(fmt::format(
+        R"({{"type": "sphere_tiling", "topology": "octahedron_pairs", "middle_weight": {}}})", weight));
+    REQUIRE(fit_ellipsoids(surface.patches).size() == 1);
+    const Tracer tracer({{surface, Solver::quadric}});
+    long rays = 0, missed = 0, passed = 0;
+    for (int k = 0; k < 6000; ++k) {
+      const Net& net = surface.patches[random() % surface.patches.size()];
+      const dvec3 corner = net_point(net, static_cast<double>(k % 2), static_cast<double>(k / 2 % 2));
+      const dvec3 beside = std::pow(10.0, -16.0 + 6.0 * part(random)) * random_direction(random),
+                  target = glm::normalize(corner + beside),
+                  from = glm::normalize(target + 0.8 * random_direction(random));
+      const Ray ray{target + 3.0 * from, -from};
+      ++rays;
+      const Hit hit = tracer.closest(ray);
+      missed += !(hit && glm::distance(hit.point, target) < 1e-13), passed += !tracer.occluded(ray);
+    }
+    INFO("weight " << weight << ", " << rays << " rays");
+    CHECK(missed == 0);
+    CHECK(passed == 0);
+  }
+}
