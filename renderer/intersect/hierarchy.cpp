@@ -34,8 +34,13 @@ bool Hierarchy::enter(const LocalRay& local, double t_min, double t_max, Entry& 
   return enter(local, base + shift * local.direction, local.slide * unit_ + shift, t_min, t_max, entry);
 }
 
-bool Hierarchy::enter(const LocalRay& local, const dvec3& base, double slide, double t_min, double t_max,
+bool Hierarchy::enter(const LocalRay& local, dvec3 base, double slide, double t_min, double t_max,
                       Entry& entry) const {
+  // From so far away rounding may leave the base beside the middle of the ray's chord.
+  if (std::fabs(slide) > 0x1p40) {
+    const double shift = -glm::dot(base, local.direction) * local.inverse_length2;
+    base += shift * local.direction, slide += shift;
+  }
   const double b2 = glm::dot(base, base), r = radius_ * unit_ * (1.0 + 1e-9);
   if (!(b2 <= r * r)) return false;
   const double half = std::sqrt((r * r - b2) * local.inverse_length2);

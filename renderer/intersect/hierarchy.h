@@ -49,7 +49,7 @@ class Hierarchy {
   std::unique_ptr<EmbreeScene> embree_;
 
   // `base`: the point of the ray nearest to the centre, and `slide` its t, in units of the traversal.
-  bool enter(const LocalRay& local, const dvec3& base, double slide, double t_min, double t_max,
+  bool enter(const LocalRay& local, dvec3 base, double slide, double t_min, double t_max,
              Entry& entry) const;
 };
 

@@ -298,3 +298,22 @@ TEST_CASE("Singular corners of small weight are met", "[solvers]") {
     CHECK(passed == 0);
   }
 }
+
+// Several surfaces are met through a hierarchy, which must let by what one sphere alone would meet.
+TEST_CASE("Rays from 2^53 radii away meet spheres in company as alone", "[solvers]") {
+  const TracedSurface cube{build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), Solver::quadric};
+  const Tracer alone({cube}), company({cube, cube, cube});
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  long hits = 0, differ = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const dvec3 d = random_direction(random);
+    const dvec3 origin = random_direction(random) - std::exp2(50.0 + 6.0 * part(random)) * d;
+    const Ray ray{origin, random_direction(random) - origin};
+    const Hit one = alone.closest(ray), other = company.closest(ray);
+    hits += static_cast<bool>(one), differ += one.t != other.t;
+  }
+  INFO(hits << " hits");
+  CHECK(differ == 0);
+  CHECK(hits > 5000);
+}
