@@ -217,29 +217,20 @@ class Grid {
     return p;
   }
 
-  // Of a cell that nobody owns, whether one of its points is on a patch that is not known to be there: what
-  // fills a cell, sides aside, is where that point is.
+  // Of a cell that nobody owns, which patches hold one of its points that are not known to be there: a patch
+  // without a side in the cell fills it, or has nothing in it.
   void ask_for(std::size_t k) {
     const dvec3 n = innermost(k);
     if (cell_at(n, side_).cell != k) return;  // no point of the sphere is in it
-    for (const Touch& t : drafts_[k].touches) {
-      const auto patch = static_cast<std::size_t>(t.patch);
-      dvec2 p = t.at;
-      if (invert(inverse_of(patch), out_.patches[patch], n, 8, p) < 1e-9 &&
-          outside(out_.patches[patch], p + middle(patch)) <= 0.0)
-        return;
-    }
     for (std::size_t patch = 0; patch < nets_.size(); ++patch) {
       const Box& box = boxes_[patch];
       if (n.x < box.low.x || n.y < box.low.y || n.z < box.low.z || n.x > box.high.x || n.y > box.high.y ||
-          n.z > box.high.z)
+          n.z > box.high.z || has(k, static_cast<std::int32_t>(patch)))
         continue;
-      if (const auto found = search_direction(nets_[patch], n)) {
+      if (const auto found = search_direction(nets_[patch], n))
         touch(k, {static_cast<std::int32_t>(patch), *found - middle(patch), 1.0});
-        try_own(k);
-        return;
-      }
     }
+    try_own(k);
   }
   // The direction in the cell that is nearest to the middle of its face.
   dvec3 innermost(std::size_t cell) const {

@@ -9,7 +9,8 @@ namespace rondure {
 //
 // A cell that no side of a patch comes near (sides are bounded by their control points) lies wholly inside a
 // patch, or outside: the patch that holds one of its points owns it. All others get candidates: whose sides
-// come near, and whose interior was seen there. Nothing is missed of patches that do not overlap.
+// come near, and who holds one of its points. Nothing is missed: what has no side in a cell fills it, or is
+// not there.
 void fill_sphere_cells(const std::vector<Net>& nets, SpherePatches& out);
 
 }  // namespace rondure

@@ -1,9 +1,9 @@
 // Closest hits of many rays with a sphere of patches, a ray a lane, by the widest instruction set of the
 // machine.
 //
-// Whatever an ordinary ray needs is done here; a lane that needs more (a cell with a seam in it, a start on
-// this surface, an ellipsoid that is no sphere, a ray of extreme length) is handed back. One lane or sixteen,
-// on every instruction set: the same bits, which are those of `sphere_solver.h`.
+// Whatever an ordinary ray needs is done here; a lane that needs more (a point at a seam, a start on this
+// surface, an ellipsoid that is no sphere, a ray that grazes or of extreme length) is handed back. One lane
+// or eight, on every instruction set: the same bits, which are those of `sphere_solver.h`.
 #pragma once
 
 #include <cstddef>

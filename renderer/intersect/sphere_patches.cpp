@@ -86,13 +86,12 @@ double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3
 }
 
 bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::size_t>& which,
-                          const std::vector<NetScale>& scales, int cells_a_side, SpherePatches& out) {
+                          int cells_a_side, SpherePatches& out) {
   std::vector<Net> known;  // of each inverse
   for (std::size_t k = 0; k < nets.size(); ++k) {
     SpherePatch patch;
     patch.patch = static_cast<std::int32_t>(which[k]);
     patch.triangle = std::holds_alternative<TriangleNet>(nets[k]);
-    patch.scale = scales[k];
     set_frame(nets[k], patch);
     Net local = in_frame(nets[k], patch);
     std::size_t same = 0;

@@ -43,7 +43,6 @@ struct SpherePatch {
   std::int32_t patch = 0;  // of the surface
   bool triangle = false;
   double outward = 1.0;  // -1 where d/du x d/dv points to the middle of the sphere
-  NetScale scale;        // of the surface's net
 };
 
 // A patch that is there, with a start for its parameters. Where others may be, or a side is near, only
@@ -85,10 +84,10 @@ struct SpherePatches {
   }
 };
 
-// Of nets on the unit sphere, with positive weights; `which[k]` is what net k is called in the surface and
-// `scales[k]` its scale there. False when some net has no inverse of low enough degree.
+// Of nets on the unit sphere, with positive weights; `which[k]` is what net k is called in the surface. False
+// when some net has no inverse of low enough degree.
 bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::size_t>& which,
-                          const std::vector<NetScale>& scales, int cells_a_side, SpherePatches& out);
+                          int cells_a_side, SpherePatches& out);
 
 // A cell, and the point's place in it.
 struct CellPlace {
@@ -160,8 +159,8 @@ bool has_converged(const Stride& stride, double steepest2) {
 }
 
 // Newton's method for the parameters (less the middle) at which the patch shows the point n, from a start; at
-// most `steps` full steps, or until one is smaller than `enough`. How far that went, squared: as far as the
-// next would go, at least. Or, of the last of all steps, how far it went.
+// most `steps` full steps, or until one is smaller than `enough`. A bound on how far the next step would go:
+// the square of the last one, if that was small enough, or else the last one itself.
 double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3& n, int steps, dvec2& p,
               double enough = 1e-9);
 

@@ -257,18 +257,8 @@ std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int 
     if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
       sphere.inverse_radius = 1.0 / r;
     std::vector<Net> nets;
-    std::vector<NetScale> scales;
-    for (const std::size_t k : fit.patches) {
-      nets.push_back(patches[k]);
-      NetScale scale;
-      for (dvec4& p : points_of(nets.back())) {
-        scale.position = std::max(scale.position, largest(dvec3(p)));
-        scale.weight = std::max(scale.weight, p.w);
-        p = dvec4(sphere.ellipsoid.inverse * (dvec3(p) - sphere.center * p.w), p.w);
-      }
-      scales.push_back(scale);
-    }
-    if (!build_sphere_patches(nets, fit.patches, scales, cells_a_side, sphere.patches)) continue;
+    for (const std::size_t k : fit.patches) nets.push_back(image_of(sphere, patches[k]));
+    if (!build_sphere_patches(nets, fit.patches, cells_a_side, sphere.patches)) continue;
     for (const std::size_t k : fit.patches) rest[k] = false;
     sphere.outward = sphere.patches.patches[0].outward;
     for (const SpherePatch& patch : sphere.patches.patches)

@@ -67,8 +67,8 @@ namespace {
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
-// As many cells for the spheres among the surfaces, of 96 bytes and some microseconds, from a side of
-// `most_cells` down.
+// As many cells if each distinct surface were one sphere, of 96 bytes and some microseconds a cell, from a side
+// of `most_cells` down.
 constexpr double cell_budget = 0x1p17;
 constexpr int most_cells = 20, fewest_cells = 4;
 // So many leaves are met one by one.

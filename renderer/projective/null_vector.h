@@ -14,8 +14,9 @@ struct NullVector {
 };
 
 // A vector that all rows annihilate, as well as rounding lets tell: singular values below 1e-13 of the
-// greatest count as zero. The nullity must not be 0 for a vector to be found. By one-sided Jacobi rotations
-// (Hestenes 1958), which make the rows orthogonal.
+// greatest count as zero. The nullity must not be 0 for a vector to be found. By Householder's
+// reflections to as many rows as unknowns, then one-sided Jacobi rotations (Hestenes 1958), which make those
+// orthogonal.
 NullVector null_vector(std::vector<std::vector<Complex>> rows);
 
 }  // namespace rondure

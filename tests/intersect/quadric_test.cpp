@@ -271,6 +271,45 @@ TEST_CASE("The poles of octants are met whichever way they are turned", "[solver
   CHECK(rays > 60000);
 }
 
+// Some faces of one tiling and some of another, turned: a cell may be within one patch and hold the side of
+// another, or lie where no sample of either falls.
+TEST_CASE("Patches of one sphere that overlap are all met", "[solvers]") {
+  std::mt19937_64 random(59);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  const Surface tilings[] = {build_family(R"({"type": "sphere_tiling", "topology": "cube"})"),
+                             build_family(R"({"type": "sphere_tiling", "topology": "octahedron_quads"})"),
+                             build_family(R"({"type": "sphere_octant"})")};
+  long inside = 0, lost = 0;
+  std::string first = "none";
+  for (int k = 0; k < 60; ++k) {
+    Surface surface;
+    for (int side = 0; side < 2; ++side) {
+      const dmat4 turn = glm::rotate(dmat4(1.0), 6.3 * part(random), random_direction(random));
+      for (const Net& net : mapped(tilings[(k + side) % 3], turn).patches)
+        if (part(random) < 0.5) surface.patches.push_back(net);
+    }
+    if (surface.patches.empty()) continue;
+    const Tracer newton({{surface, Solver::newton}}), quadric({{surface, Solver::quadric}});
+    for (int j = 0; j < 2000; ++j) {
+      const dvec3 from = 3.0 * random_direction(random);
+      const Ray ray{from, 0.9 * random_direction(random) - from};
+      const Hit a = newton.closest(ray), b = quadric.closest(ray);
+      if (!a) continue;
+      const bool triangle =
+          std::holds_alternative<TriangleNet>(surface.patches[static_cast<std::size_t>(a.patch)]);
+      const double far = triangle ? 1.0 - a.u - a.v : 1.0 - std::max(a.u, a.v);
+      if (std::min({a.u, a.v, far}) < 1e-9) continue;  // at a rim either answer is right
+      ++inside;
+      if (b && std::fabs(b.t - a.t) <= a.t_error + b.t_error + 1e-12) continue;
+      ++lost;
+      if (first == "none") first = fmt::format("surface {}, ray {}", k, j);
+    }
+  }
+  INFO(lost << " of " << inside << " hits; the first: " << first);
+  CHECK(lost == 0);
+  CHECK(inside > 60'000);
+}
+
 // Where a patch is singular and its weight is a hundredth of its greatest: what a search leaves is to be
 // small at the size of the point.
 TEST_CASE("Singular corners of small weight are met", "[solvers]") {
