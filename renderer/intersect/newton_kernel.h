@@ -175,7 +175,7 @@ FOR_THIS_SET NewtonVerdict search(const Leaf& leaf, const Evaluate& evaluate_at,
       fa = leaf.edge_a.x * fu, fb = leaf.edge_b.y * fv;
     else
       fa = leaf.edge_a.x * fu + leaf.edge_a.y * fv, fb = leaf.edge_b.x * fu + leaf.edge_b.y * fv;
-    const double r = 1.0 / (fa.x * fb.y - fa.y * fb.x);
+    const double r = quotient(1.0, fa.x * fb.y - fa.y * fb.x);  // infinite at a singular point: undecided
     const dvec2 step = dvec2(fb.y * f.x - fb.x * f.y, fa.x * f.y - fa.y * f.x) * r;
     p -= step;
     const double length = std::max(std::fabs(step.x), std::fabs(step.y));
