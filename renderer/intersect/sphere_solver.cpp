@@ -196,9 +196,10 @@ bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& 
       return chord_of(o.x, o.y, o.z, d.x, d.y, d.z, inverse_length2, radius * radius, same);
     };
     SphereChord<double> c = chord();
-    if (!(c.passed2 <= farthest_middle2 * radius * radius)) {
+    if (const double most = farthest_middle2 * radius * radius; !(c.passed2 <= most)) {
       ray.base += c.middle * d, ray.slide += c.middle;
       c = chord();
+      if (!(c.passed2 <= most)) return false;
     }
     rest = c.rest, roots.middle = roots.from_middle = c.middle;
     roots.inverse_length2 = inverse_length2;

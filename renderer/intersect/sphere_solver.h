@@ -32,7 +32,7 @@ struct SphereRoots {
 
 // Of a line's point about a sphere's centre: how far from the middle of its chord, squared and in radii, it
 // may be for the chord to be found from there. Rays come from 2^53 radii away before rounding takes them so
-// far.
+// far, and from 2^106 before it takes what is found about the middle so far again: those meet nothing.
 inline constexpr double farthest_middle2 = 4.0;
 
 // False when the ray misses the whole ellipsoid. `ray` is moved to where it passes the centre, the surface
