@@ -28,7 +28,8 @@ struct Image {
 void require_image_module();
 
 // OpenEXR, Radiance HDR, PNG, JPEG, TIFF, PNM (with PFM), TGA or BMP. 8- and 16-bit files are taken for sRGB;
-// grey is spread over three channels. Throws std::runtime_error naming the file; non-finite and negative values are errors too.
+// grey is spread over three channels. Throws std::runtime_error naming the file; non-finite and negative
+// values are errors too.
 Image read_image(const std::string& path);
 
 // Draws white text of a size in pixels on a picture as below; `at` is the left end of its baseline, or with
