@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/intersect/fold.h"
+#include "renderer/intersect/newton_step.h"
 #include "renderer/intersect/parameter_clip.h"
 #include "renderer/intersect/strong_direction.h"
 
@@ -142,7 +143,7 @@ class Search {
       // at worst.
       if (k == 32) return Outcome::finished;
       const FirstOrder<dvec2> s = shape_.first(f, p);
-      const dvec2 step = glm::inverse(glm::dmat2(s.du, s.dv)) * s.value;
+      const dvec2 step = newton_step(s.value, s.du, s.dv);
       p -= step;
       // A root of this cell would hold every iterate within `contraction` of it.
       if (!(Shape::outside(p) < 1.0)) return Outcome::finished;
@@ -241,9 +242,7 @@ class Search {
   void keep(dvec2 p, bool tangent) {
     FirstOrder<dvec2> s = shape_.first(patch_, p);
     if (!tangent) {
-      const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
-      const dvec2 step =
-          dvec2(s.dv.y * s.value.x - s.dv.x * s.value.y, s.du.x * s.value.y - s.du.y * s.value.x) / det;
+      const dvec2 step = newton_step(s.value, s.du, s.dv);
       if (std::max(std::fabs(step.x), std::fabs(step.y)) < 1e-6) {
         p -= step;
         s = shape_.first(patch_, p);

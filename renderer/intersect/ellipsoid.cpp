@@ -18,12 +18,39 @@ EllipsoidHit make_hit(const Ellipsoid& e, dvec3 on_sphere) {
           glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
 }
 
+double frobenius(const dmat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+double largest_of(const dmat3& m) {
+  double out = 0.0;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out = std::fmax(out, std::fabs(m[j][i]));
+  return out;
+}
+
+// Brought to size one by a power of two, which changes no bit, as the determinant of a small matrix is no
+// double.
+dmat3 inverse_of(const dmat3& map) {
+  const double scale = std::ldexp(1.0, -std::ilogb(largest_of(map)));
+  return glm::inverse(map * scale) * scale;
+}
+
 }  // namespace
 
-Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(glm::inverse(map)) {
+bool is_too_flat(const dmat3& map) {
+  const double size = largest_of(map);
+  if (!(size > 0.0) || !std::isfinite(size)) return true;
+  const dmat3 unit = map / size;
+  if (glm::determinant(unit) == 0.0) return true;
+  // At least the ratio of the semi-axes, and at most three times it.
+  return !(frobenius(unit) * frobenius(glm::inverse(unit)) <= flattest_ellipsoid);
+}
+
+Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(inverse_of(map)) {
   // Semi-axes lie between the column lengths' extremes only for orthogonal columns: the Frobenius norm bounds
   // them all.
-  extent = std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+  extent = frobenius(map);
   const double r = glm::length(map[0]);
   const double skew = std::fmax(
       std::fmax(std::fabs(glm::length(map[1]) - r), std::fabs(glm::length(map[2]) - r)),

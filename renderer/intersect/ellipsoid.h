@@ -12,8 +12,13 @@ struct Ellipsoid {
   double extent = 1.0;          // largest semi-axis
   double uniform_radius = 0.0;  // the radius when `linear` is a scaled rotation, else 0
 
-  explicit Ellipsoid(const dmat3& map);
+  explicit Ellipsoid(const dmat3& map);  // not too flat
 };
+
+// Semi-axes in a greater ratio are too many for the closed form: in the unit sphere's space rounding moves a
+// ray by roundoff times the ratio, and its outline by the square of that, relative to the longest axis.
+inline constexpr double flattest_ellipsoid = 1e8;
+bool is_too_flat(const dmat3& map);
 
 struct EllipsoidHit {
   dvec3 point;   // in the surface's frame

@@ -140,32 +140,39 @@ std::optional<Map> fit_ellipsoid(const std::vector<lvec3>& points) {
   return Map{map, place};
 }
 
-// Bernstein coefficients of |x|^2 - w^2 against those of w^2, one by one: the quotient of both polynomials is
-// a mean of theirs, with positive weights. (The smallest weight's square in the place of all would ask more,
-// by the square of the ratio of the weights, where the patch is no more exact.)
+// Bound on |x|^2 / w^2 - 1 over the patch: Bernstein coefficients of |x|^2 - w^2 against those of w^2, one by
+// one, as the quotient of both polynomials is a mean of theirs, with positive weights. (The smallest weight's
+// square in the place of all would ask more, by the square of the ratio of the weights, where the patch is no
+// more exact.)
 template <class Polynomial>
-bool satisfies(const Polynomial& image, long double distance) {
+long double defect_of(const Polynomial& image) {
   const auto defect = multiply(image, image, [](const lvec4& p, const lvec4& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z - p.w * q.w;
   });
   const auto square = multiply(image, image, [](const lvec4& p, const lvec4& q) { return p.w * q.w; });
-  const long double limit = ellipsoid_roundoffs * unit_roundoff * (1 + distance);
-  for (std::size_t k = 0; k < defect.coefficients.size(); ++k)
-    if (!(std::abs(defect.coefficients[k]) <= limit * square.coefficients[k])) return false;
-  return true;
+  long double most = 0;
+  for (std::size_t k = 0; k < defect.coefficients.size(); ++k) {
+    const long double here = std::abs(defect.coefficients[k]) / square.coefficients[k];
+    if (!(here <= most)) most = here;
+  }
+  return most;
 }
 
-// Of a net with positive weights.
-bool lies_on(const Net& net, const EllipsoidFit& fit) {
+// Of a net with positive weights, which then adds what it misses the ellipsoid by.
+bool lies_on(const Net& net, EllipsoidFit& fit) {
   const lmat3 inverse = glm::inverse(lmat3(fit.linear));
   const lvec3 center(fit.center);
   std::vector<lvec4> image;
   for (const dvec4& p : points_of(net))
     image.push_back(lvec4(inverse * (lvec3(p) - center * static_cast<long double>(p.w)), p.w));
+  const auto* tensor = std::get_if<TensorNet>(&net);
+  const long double defect =
+      tensor ? defect_of(TensorPolynomial<lvec4>(tensor->m, tensor->n, std::move(image)))
+             : defect_of(TrianglePolynomial<lvec4>(std::get<TriangleNet>(net).n, std::move(image)));
   const long double distance = glm::length(inverse * center);
-  if (const auto* tensor = std::get_if<TensorNet>(&net))
-    return satisfies(TensorPolynomial<lvec4>(tensor->m, tensor->n, std::move(image)), distance);
-  return satisfies(TrianglePolynomial<lvec4>(std::get<TriangleNet>(net).n, std::move(image)), distance);
+  if (!(defect <= ellipsoid_roundoffs * unit_roundoff * (1 + distance))) return false;
+  fit.off = std::max(fit.off, static_cast<double>(defect / 2));
+  return true;
 }
 
 // Of these patches alone.
@@ -182,7 +189,7 @@ std::optional<EllipsoidFit> fit_one(const std::vector<Net>& patches, const std::
   const long double flat =
       longest * std::max({glm::length(inverse[0]), glm::length(inverse[1]), glm::length(inverse[2])});
   if (!(flat < flattest) || !(glm::length(high - low) > smallest_part * longest)) return std::nullopt;
-  return EllipsoidFit{dmat3(m), dvec3(map->center), {}};
+  return EllipsoidFit{dmat3(m), dvec3(map->center), 0.0, {}};
 }
 
 bool is_plain(const Net& net) {

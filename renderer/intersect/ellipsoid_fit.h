@@ -11,6 +11,7 @@ namespace rondure {
 struct EllipsoidFit {
   dmat3 linear{1.0};
   dvec3 center{0.0};
+  double off = 0.0;                  // bound on how far its patches are from it, relative to the semi-axes
   std::vector<std::size_t> patches;  // those on it, in order
 };
 

@@ -130,7 +130,7 @@ void spread_out(PatchInverse& inverse) {
 }
 
 // Brings the coefficients to size 1, and tells what is usual in the patch: the inverse derivatives in its
-// middle. False when the coefficients are zero or no numbers.
+// middle. False when the coefficients are zero or no numbers, or the middle is singular.
 bool normalise(PatchInverse& inverse) {
   double most = 0.0, sum = 0.0;
   for (const double c : inverse.coefficients) most = std::max(most, std::fabs(c)), sum += std::fabs(c);
@@ -143,7 +143,9 @@ bool normalise(PatchInverse& inverse) {
     return 2.0 * dvec2(c[0], c[1]);
   };
   const dvec2 fu = at(1, 0), fv = at(0, 1);
-  const double r = 1.0 / (fu.x * fv.y - fu.y * fv.x);
+  const double det = fu.x * fv.y - fu.y * fv.x;
+  if (det == 0.0) return false;
+  const double r = 1.0 / det;
   constexpr double steeper = 16.0;
   inverse.steepest2 = steeper * steeper * r * r * (glm::dot(fu, fu) + glm::dot(fv, fv));
   spread_out(inverse);

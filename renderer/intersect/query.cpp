@@ -89,7 +89,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
   if (!meet_sphere(sphere, q.ray->origin, frame, local, roots)) return false;
   const std::vector<Net>& nets = *q.compiled[surface]->nets;
   const Ellipsoid& e = sphere.ellipsoid;
-  const double error = ellipsoid_error(e), grazing = std::sqrt(2.0 * error * e.extent);
+  const double error = sphere.error, grazing = std::sqrt(2.0 * error * e.extent);
   for (const int side : {-1, 1}) {
     const SpherePoint at = sphere_point(roots, side);
     const dvec3& n = at.n;

@@ -139,7 +139,7 @@ SphereTarget target_at(const PatchedSphere& sphere, const dvec3& frame, int surf
   }
   const double radius = sphere.ellipsoid.uniform_radius;
   target.radius2 = radius * radius, target.inverse_radius = sphere.inverse_radius;
-  target.stretch = ellipsoid_error(sphere.ellipsoid) * radius;
+  target.stretch = sphere.error * radius;
   return target;
 }
 

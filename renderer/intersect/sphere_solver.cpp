@@ -253,7 +253,8 @@ std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int 
   rest.assign(patches.size(), true);
   std::vector<PatchedSphere> out;
   for (const EllipsoidFit& fit : fit_ellipsoids(patches)) {
-    PatchedSphere sphere{Ellipsoid(fit.linear), fit.center, 0.0, 0.0, {}};
+    PatchedSphere sphere{Ellipsoid(fit.linear), fit.center, 0.0, 0.0, 0.0, {}};
+    sphere.error = ellipsoid_error(sphere.ellipsoid) + fit.off * sphere.ellipsoid.extent;
     // The square of its radius must be a number, too.
     if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
       sphere.inverse_radius = 1.0 / r;

@@ -14,7 +14,8 @@ struct PatchedSphere {
   Ellipsoid ellipsoid;
   dvec3 center{0.0};
   double inverse_radius = 0.0;  // of a sphere, whose radius is the ellipsoid's; 0 of others
-  double outward = 0.0;         // what all patches have in common, as in SpherePatch; 0: nothing
+  double error = 0.0;    // bound on the distance of a hit from the patch's own, at right angles to the ray
+  double outward = 0.0;  // what all patches have in common, as in SpherePatch; 0: nothing
   SpherePatches patches;
 };
 

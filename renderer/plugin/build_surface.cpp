@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/matrix.hpp>
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/bernstein.h"
+#include "renderer/intersect/ellipsoid.h"
 #include "renderer/plugin/call_plugin.h"
 
 namespace rondure {
@@ -51,7 +51,8 @@ std::string defect_of(const Surface& surface) {
     for (int j = 0; j < 3; ++j) {
       if (!is_finite((*surface.ellipsoid)[j])) return "is an ellipsoid that is not finite";
     }
-    if (glm::determinant(*surface.ellipsoid) == 0.0) return "is an ellipsoid without volume";
+    if (is_too_flat(*surface.ellipsoid))
+      return fmt::format("is an ellipsoid of semi-axes in a ratio above {:.0e}", flattest_ellipsoid);
   } else if (surface.patches.empty()) {
     return "has no patches";
   }

@@ -8,6 +8,7 @@
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/continuity/seams.h"
+#include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/ellipsoid_fit.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/plugin/build_surface.h"
@@ -39,7 +40,12 @@ void place_affine(Surface& surface, const Placement& placement) {
   surface.origin =
       map * (placement.center + placement.radius * surface.origin) + dvec3(placement.transform[3]);
   if (linear == dmat3(1.0)) return;
-  if (surface.ellipsoid) *surface.ellipsoid = linear * *surface.ellipsoid;
+  if (surface.ellipsoid) {
+    *surface.ellipsoid = linear * *surface.ellipsoid;
+    if (is_too_flat(*surface.ellipsoid))
+      throw std::invalid_argument(
+          fmt::format("the closed form bears semi-axes in a ratio up to {:.0e}", flattest_ellipsoid));
+  }
   transform_all(surface, dmat4(linear));
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("a family that breaks its promises is refused at the object", "[plugin
       {"no_guide",
        "made a surface that has a guide in \"ribs\" that is a curve of less than two control points"},
       {"nan_ellipsoid", "made a surface that is an ellipsoid that is not finite"},
-      {"flat_ellipsoid", "made a surface that is an ellipsoid without volume"},
+      {"flat_ellipsoid", "made a surface that is an ellipsoid of semi-axes in a ratio above 1e+08"},
       {"throws", "failed: no licence for surfaces"},
       {"throws_number", "failed with an exception of unknown type"},
   };

@@ -169,6 +169,9 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
        "s.json:1:47: \"sphere\": a projective transform does not keep an analytic sphere analytic; take a "
        "family of "
        "patches, such as \"sphere_tiling\""},
+      {"{\"type\": \"sphere\", \"transform\": [{\"scale\": [1,1,1e-9]}]}",
+       "s.json:1:47: \"sphere\": the closed form bears semi-axes in a ratio up to 1e+08; take a family of "
+       "patches, such as \"sphere_tiling\""},
       {"{\"type\": \"sphere\", \"transform\": [{\"scale\": [1,0,1]}]}",
        "s.json:1:58: \"scale\" must not be zero: it flattens the surface"},
       {"{\"type\": \"sphere\", \"transform\": [{\"scale\": \"big\"}]}",
