@@ -1,6 +1,8 @@
 #include "renderer/intersect/direction_search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/clipping.h"
@@ -8,27 +10,57 @@
 #include "renderer/intersect/settle.h"
 
 namespace rondure {
+namespace {
+
+// Rounding is relative to the weights, and where these are small beside the greatest, so are the polynomials:
+// the domain is halved until no part's weights differ by more than this, or the last of so many times.
+constexpr double most_unequal = 4.0;
+constexpr int most_halvings = 1 << 9;
+
+template <class Shape>
+void find_in_parts(const Shape& shape, const std::vector<dvec4>& points, const LocalRay& ray,
+                   std::vector<Root>& roots) {
+  const std::size_t count = points.size();
+  dvec2 projected[max_net_size], size[max_net_size], part[max_net_size], scratch[2][max_net_size];
+  project_net(points, ray, projected);
+  for (std::size_t k = 0; k < count; ++k) size[k] = dvec2(largest(dvec3(points[k])), points[k].w);
+  SearchCounts counts;
+  counts.limit = 1 << 12;
+  int halvings = 0;
+  for (std::vector<typename Shape::Cell> cells = {{}}; !cells.empty();) {
+    const typename Shape::Cell cell = cells.back();
+    cells.pop_back();
+    shape.restrict_to(size, cell, part);
+    NetScale scale;
+    double least = INFINITY;
+    for (std::size_t k = 0; k < count; ++k) {
+      scale.position = std::max(scale.position, part[k].x);
+      scale.weight = std::max(scale.weight, part[k].y);
+      least = std::min(least, part[k].y);
+    }
+    if (scale.weight <= most_unequal * least || halvings == most_halvings) {
+      find_roots(shape, projected, cell, residual_bound(scale, ray), roots, counts);
+      continue;
+    }
+    typename Shape::Cell low, high;
+    Shape::halve(cell, shape.steepest_edge(part, scratch[0], scratch[1]), low, high);
+    cells.push_back(low), cells.push_back(high);
+    ++halvings;
+  }
+}
+
+}  // namespace
 
 std::optional<dvec2> search_direction(const Net& net, const dvec3& n) {
   LocalRay ray;  // through the centre
   if (!set_direction(n, ray)) return std::nullopt;
   set_normals(ray);
   set_distances(ray);
-  NetScale scale;
-  dvec2 projected[max_net_size];
-  project_net(points_of(net), ray, projected);
-  for (const dvec4& p : points_of(net)) {
-    scale.position = std::max(scale.position, largest(dvec3(p)));
-    scale.weight = std::max(scale.weight, p.w);
-  }
-  const double error = residual_bound(scale, ray);
   std::vector<Root> roots;
-  SearchCounts counts;
-  counts.limit = 1 << 12;
   if (const auto* tensor = std::get_if<TensorNet>(&net))
-    find_roots(TensorShape{tensor->m, tensor->n}, projected, RectangleCell{}, error, roots, counts);
+    find_in_parts(TensorShape{tensor->m, tensor->n}, points_of(net), ray, roots);
   else
-    find_roots(TriangleShape{std::get<TriangleNet>(net).n}, projected, TriangleCell{}, error, roots, counts);
+    find_in_parts(TriangleShape{std::get<TriangleNet>(net).n}, points_of(net), ray, roots);
   std::optional<dvec2> best;
   double least = 1e-6;
   for (Root root : roots) {

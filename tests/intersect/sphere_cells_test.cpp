@@ -58,12 +58,29 @@ TEST_CASE("Patches of one sphere that overlap are all met", "[solvers]") {
 
 // Where a patch is singular and its weight is a hundredth of its greatest: what a search leaves is to be
 // small at the size of the point.
+// Weights times a^i b^j: the same patches, with the Moebius images of their parameters.
+Surface reparametrised(Surface surface, double a, double b) {
+  for (Net& net : surface.patches) {
+    auto& tensor = std::get<TensorNet>(net);
+    for (int i = 0; i <= tensor.m; ++i)
+      for (int j = 0; j <= tensor.n; ++j) tensor.at(i, j) *= std::pow(a, i) * std::pow(b, j);
+  }
+  return surface;
+}
+
 TEST_CASE("Singular corners of small weight are met", "[solvers]") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (const int weight : {1, 30, 100}) {
-    const Surface surface = build_family(fmt::format(
-        R"({{"type": "sphere_tiling", "topology": "octahedron_pairs", "middle_weight": {}}})", weight));
+  std::vector<std::pair<std::string, Surface>> cases;
+  for (const int weight : {1, 30, 100})
+    cases.emplace_back(
+        fmt::format("middle weight {}", weight),
+        build_family(fmt::format(
+            R"({{"type": "sphere_tiling", "topology": "octahedron_pairs", "middle_weight": {}}})", weight)));
+  const Surface hemispheres = build_family(R"({"type": "sphere_tiling", "topology": "hemispheres"})");
+  cases.emplace_back("hemispheres, 3^i 0.4^j", reparametrised(hemispheres, 3.0, 0.4));
+  cases.emplace_back("hemispheres, 0.2^i 0.3^j", reparametrised(hemispheres, 0.2, 0.3));
+  for (const auto& [name, surface] : cases) {
     REQUIRE(fit_ellipsoids(surface.patches).size() == 1);
     const Tracer tracer({{surface, Solver::quadric}});
     long rays = 0, missed = 0, passed = 0;
@@ -78,7 +95,7 @@ TEST_CASE("Singular corners of small weight are met", "[solvers]") {
       const Hit hit = tracer.closest(ray);
       missed += !(hit && glm::distance(hit.point, target) < 1e-13), passed += !tracer.occluded(ray);
     }
-    INFO("weight " << weight << ", " << rays << " rays");
+    INFO(name << ", " << rays << " rays");
     CHECK(missed == 0);
     CHECK(passed == 0);
   }
