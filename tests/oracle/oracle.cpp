@@ -1,79 +1,15 @@
 #include "tests/oracle/oracle.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
+#include <cmath>
 
-#include "tests/oracle/polynomial_pair.h"
+#include "tests/oracle/exact_net.h"
+#include "tests/oracle/turning.h"
 
 namespace rondure::oracle {
 namespace {
 
-using Real3 = std::array<Real, 3>;
-
 constexpr std::size_t piece_limit = 1 << 13;
-
-Real dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Real3 cross(const Real3& a, const Real3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Real3 scaled(const Real& s, const Real3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Real3 unit(const Real3& a) { return scaled(1 / sqrt(dot(a, a)), a); }
-double rounded(const Real& x) { return x.convert_to<double>(); }
-
-// The ray in the surface's frame, and two unit normals across it.
-struct Line {
-  Real3 origin, direction, normal[2];
-};
-
-Line line_of(const Ray& ray, const dvec3& frame) {
-  Line out;
-  for (int k = 0; k < 3; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    out.origin[at] = Real(ray.origin[k]) - Real(frame[k]);
-    out.direction[at] = ray.direction[k];
-  }
-  // Without the direction's largest component the other two would be the normal's rounding.
-  std::size_t big = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (abs(out.direction[k]) > abs(out.direction[big])) big = k;
-  Real3 axis{0, 0, 0};
-  axis[(big + 1) % 3] = 1;
-  out.normal[0] = unit(cross(axis, out.direction));
-  out.normal[1] = unit(cross(out.direction, out.normal[0]));
-  return out;
-}
-
-// The net as two pairs of polynomials: (wx, wy) and (wz, w).
-struct ExactNet {
-  PolynomialPair xy, zw;
-
-  explicit ExactNet(const Net& net) {
-    Degrees d;
-    if (const auto* tensor = std::get_if<TensorNet>(&net))
-      d = {false, tensor->m, tensor->n};
-    else
-      d = {true, std::get<TriangleNet>(net).n, std::get<TriangleNet>(net).n};
-    xy.degrees = zw.degrees = d;
-    for (const dvec4& p : points_of(net)) xy.c.push_back({p.x, p.y}), zw.c.push_back({p.z, p.w});
-  }
-
-  // Point and derivatives in space, w divided out.
-  struct Place {
-    Real3 point, du, dv;
-  };
-  Place at(const Real& u, const Real& v) const {
-    const Real2 a = xy(u, v), b = zw(u, v);
-    Place out;
-    out.point = {a[0] / b[1], a[1] / b[1], b[0] / b[1]};
-    for (int k = 0; k < 2; ++k) {
-      const Real2 da = xy.derivative(k)(u, v), db = zw.derivative(k)(u, v);
-      const Real3 s{da[0], da[1], db[0]};
-      for (std::size_t j = 0; j < 3; ++j)
-        (k == 0 ? out.du : out.dv)[j] = (s[j] - out.point[j] * db[1]) / b[1];
-    }
-    return out;
-  }
-};
 
 // A 2x2 matrix times the pair.
 struct Matrix {
@@ -286,19 +222,6 @@ class Search {
     out_.roots.push_back(root);
   }
 
-  // Where the gradients are parallel: along the zeros of one polynomial f, the other, g, is stationary where
-  // the Jacobian determinant J vanishes, and that changes at the rate f_b J_a - f_a J_b.
-  struct Turn {
-    Real slope2, rate, scale;
-  };
-  static Turn turn(const Jet& s) {
-    const Real ja = s.daa[0] * s.db[1] + s.da[0] * s.dab[1] - s.dab[0] * s.da[1] - s.db[0] * s.daa[1],
-               jb = s.dab[0] * s.db[1] + s.da[0] * s.dbb[1] - s.dbb[0] * s.da[1] - s.db[0] * s.dab[1];
-    const Real slope2 = s.da[0] * s.da[0] + s.db[0] * s.db[0];
-    const Real bend = std::max({size_of(s.daa), size_of(s.dab), size_of(s.dbb)});
-    return {slope2, s.db[0] * ja - s.da[0] * jb, slope2 * bend};
-  }
-
   // So small is the piece of a cluster that one point tells of all: f turns by 10^-19 of itself.
   bool turns_once(const Piece& piece) const {
     const Real middle = triangle() ? Real(1) / 3 : Real(0.5);
@@ -308,15 +231,6 @@ class Search {
     const Real gradient = std::max(size_of(s.da), size_of(s.db));
     const Real bend = std::max({size_of(s.daa), size_of(s.dab), size_of(s.dbb)});
     return at.slope2 > 0 && bend < ldexp(gradient, -20) && abs(at.rate) > ldexp(at.scale, -20);
-  }
-
-  // Combines the two planes so that the first polynomial has all of the gradient that it can have.
-  static void rotate(Jet& s) {
-    const Real gg = s.da[0] * s.da[0] + s.db[0] * s.db[0], hh = s.da[1] * s.da[1] + s.db[1] * s.db[1],
-               gh = s.da[0] * s.da[1] + s.db[0] * s.db[1];
-    const Real angle = atan2(2 * gh, gg - hh) / 2, c = cos(angle), d = sin(angle);
-    for (Real2* x : {&s.value, &s.da, &s.db, &s.daa, &s.dab, &s.dbb})
-      *x = {c * (*x)[0] + d * (*x)[1], c * (*x)[1] - d * (*x)[0]};
   }
 
   void look_for_graze(const Piece& piece, Real2 p) {
@@ -381,38 +295,6 @@ Meeting meet(const Surface& surface, const Ray& ray, double graze, double margin
       Search(surface.patches[k], static_cast<int>(k), line, graze, margin, out);
   std::stable_sort(out.roots.begin(), out.roots.end(),
                    [](const Root& a, const Root& b) { return a.t < b.t; });
-  return out;
-}
-
-std::vector<Crossing> crossings(const Meeting& meeting, double resolution) {
-  std::vector<Crossing> out;
-  for (const Root& root : meeting.roots) {
-    // Two simple roots of one patch are two crossings however near.
-    const bool joins = !out.empty() && root.t - out.back().high <= resolution &&
-                       std::find(out.back().patches.begin(), out.back().patches.end(), root.patch) ==
-                           out.back().patches.end();
-    if (!joins) {
-      out.push_back({root.t,
-                     root.cosine,
-                     root.t,
-                     root.t,
-                     root.outside,
-                     root.multiplicity,
-                     root.certified,
-                     root.way,
-                     false,
-                     {root.patch}});
-      continue;
-    }
-    Crossing& c = out.back();
-    if (root.outside < c.outside) c.t = root.t, c.outside = root.outside;
-    c.cosine = std::min(c.cosine, root.cosine);
-    c.high = std::max(c.high, root.t);
-    if (root.multiplicity != 1) c.multiplicity = root.multiplicity;
-    c.certified = c.certified && root.certified;
-    c.touches = c.touches || root.way != c.way;
-    c.patches.push_back(root.patch);
-  }
   return out;
 }
 
