@@ -16,17 +16,30 @@ namespace {
 
 constexpr std::size_t cells_per_query = 1 << 15;
 
+// Of closed surfaces; where they touch, `normal` is that of `surface` there.
+Contact contact_with_start(const Query& q, const CompiledSurface& surface, const CompiledSurface& start,
+                           const dvec3& normal) {
+  if (!(glm::dot(normal, q.ray->start.normal) > 0.0)) return Contact::beside;
+  const double size = largest(surface.bounds.high - surface.bounds.low),
+               other = largest(start.bounds.high - start.bounds.low);
+  return size < other ? Contact::within : size > other ? Contact::around : Contact::beside;
+}
+
 // Whether the crossing is a hit, in the query's ray (`local` in some frame), of `surface`; `t` receives its
-// place.
-bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, double& t) {
+// place. `normal()`: there, outward, of length one.
+template <class Normal>
+bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, const Normal& normal,
+            double& t) {
   const dvec3& frame = q.origins[surface];
   if (accept(*q.ray, local, static_cast<int>(surface), frame, c, t)) return true;
   const int start = q.ray->start.surface;
-  if (start < 0 || start == static_cast<int>(surface) || !q.compiled[surface]->closed) return false;
+  const CompiledSurface& met = *q.compiled[surface];
+  if (start < 0 || start == static_cast<int>(surface) || !met.closed) return false;
   const CompiledSurface& left = *q.compiled[start];
   if (!left.closed) return false;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
-  return accept_at_contact(*q.ray, local, frame, size, c, t);
+  const auto contact = [&] { return contact_with_start(q, met, left, normal()); };
+  return accept_at_contact(*q.ray, local, frame, size, c, contact, t);
 }
 
 enum class Taken { no, noted, nearest, settled };
@@ -38,7 +51,7 @@ Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, 
            const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = q.origins[surface];
-  if (!is_hit(q, surface, q.local, c, hit.t)) return Taken::no;
+  if (!is_hit(q, surface, q.local, c, normal, hit.t)) return Taken::no;
   if (q.mode == Mode::any) return Taken::settled;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
@@ -111,7 +124,11 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       if (!place) continue;
       c.sign = place->outward < 0.0 ? -leaving : leaving;
     }
-    if (!is_hit(q, surface, local, c, hit.t)) continue;
+    const auto outward = [&] {
+      const dvec3 unit = sphere.inverse_radius > 0.0 ? n : glm::normalize(n * e.inverse);
+      return sphere.outward < 0.0 ? -unit : unit;
+    };
+    if (!is_hit(q, surface, local, c, outward, hit.t)) continue;
     if (q.mode == Mode::any) {
       if (place || covers(sphere, nets, at, reach)) return true;
       continue;

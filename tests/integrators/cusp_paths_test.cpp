@@ -168,7 +168,7 @@ class Walk {
     // Nested ones start where the gap is more than rounding by far.
     const double narrow = std::sqrt(1e3 * rounding_ * r);
     const double from = pair_.nested ? std::max(power(5.0), narrow) : r * (0.1 + 0.7 * draw());
-    const double past = least + std::max(power(16.0), pair_.nested ? narrow : 0.0);
+    const double past = least + power(16.0);
     dvec3 start = pair_.origin + (least + from) * along, target = pair_.origin;
     const double kind = draw();
     if (kind < 0.3) {

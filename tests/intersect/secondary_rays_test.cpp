@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
@@ -79,4 +81,50 @@ TEST_CASE("Rays leaving a convex surface never meet it again, and rays entering 
   CHECK(escapes == 0);
   CHECK(hits > 45'000);
   CHECK(short_chords < hits / 2);
+}
+
+// Where one sphere touches another from within, the space between them is less than rounding: a ray that
+// starts on the outer and goes in meets the inner at once, and one that starts on the inner and goes out the
+// outer, whichever side of the other's wall rounding put it on.
+TEST_CASE("Nested spheres that touch are met from each other", "[hits]") {
+  const auto ball = [](const char* family, double radius, const dvec3& center, Solver solver) {
+    return TracedSurface{placed(build_family(family), radius, center), solver};
+  };
+  const char* const cube = R"({"type": "sphere_tiling", "topology": "cube"})";
+  const char* const hemispheres = R"({"type": "sphere_tiling", "topology": "hemispheres"})";
+  const char* const sphere = R"({"type": "sphere"})";
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  long rays = 0, lost = 0, behind = 0;
+  std::string first = "none";
+  for (const auto& [outer, inner, solver] : {std::tuple{cube, hemispheres, Solver::newton},
+                                             {cube, cube, Solver::quadric},
+                                             {hemispheres, sphere, Solver::quadric}})
+    for (const dvec3& axis : {dvec3(7.0, 0.0, 0.0), dvec3(2.0, 3.0, 6.0)}) {
+      // Of radii 14 and 7, touching at twice the axis, which doubles hold.
+      const Tracer tracer({ball(outer, 14.0, dvec3(0.0), solver), ball(inner, 7.0, axis, solver)});
+      for (int k = 0; k < 2000; ++k) {
+        const dvec3 beside = std::pow(10.0, -8.0 - 9.0 * part(random)) * random_direction(random);
+        const dvec3 normal = glm::normalize(axis / 7.0 + beside);
+        const int from = k % 2;  // the surface
+        const dvec3 start = from == 0 ? 14.0 * normal : axis + 7.0 * normal;
+        dvec3 direction = random_direction(random);
+        const double rise = glm::dot(direction, normal);
+        if (std::fabs(rise) < 1e-3) continue;
+        if ((rise > 0.0) != (from == 1)) direction = -direction;
+        const Ray ray{start, direction, 0.0, INFINITY, {from, normal}};
+        const Hit hit = tracer.closest(ray);
+        ++rays, behind += hit && hit.t == 0.0;
+        // Both walls and the start are within some ulps of 14 of each other, at right angles to them.
+        if (!hit || hit.surface == from || hit.t > 64.0 * 0x1p-52 * 14.0 / std::fabs(rise) ||
+            !tracer.occluded(ray)) {
+          if (lost++ == 0)
+            first = fmt::format("{} in {} from {}: t = {} of {}, rise {}", inner, outer, from, hit.t,
+                                hit.surface, rise);
+        }
+      }
+    }
+  INFO(lost << " of " << rays << " rays, " << behind << " at once; the first: " << first);
+  CHECK(lost == 0);
+  CHECK(behind > rays / 10);
 }
