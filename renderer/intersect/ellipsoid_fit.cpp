@@ -7,20 +7,21 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "renderer/bezier/product.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/intersect/ellipsoid_proof.h"
 #include "renderer/intersect/root.h"
-#include "renderer/projective/generalised_projection.h"
 
 namespace rondure {
 namespace {
 
-using lmat3 = glm::mat<3, 3, long double, glm::defaultp>;
+using lmat3 = EllipsoidMap::Matrix;
+using lvec3 = glm::vec<3, long double, glm::defaultp>;
 
 // Semi-axes further apart than this, and patches smaller than this part of their ellipsoid when they have no
 // others beside them, leave too few digits.
 constexpr long double flattest = 1e4L, smallest_part = 0.2L;
 constexpr std::size_t most_fits = 8;  // that failed, before the rest of a surface is given up
+constexpr std::size_t many = 4;       // patches, of which fewer points each tell as much of a sphere
 
 // The x that solves the normal equations of rows . x = right; nothing when they are singular to half of the
 // digits.
@@ -61,8 +62,7 @@ class Normal {
   std::array<std::array<long double, N + 1>, N> m_{};
 };
 
-void add_samples(const Net& net, std::vector<lvec3>& out) {
-  constexpr int steps = 4;
+void add_samples(const Net& net, int steps, std::vector<lvec3>& out) {
   const bool triangle = std::holds_alternative<TriangleNet>(net);
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= (triangle ? steps - i : steps); ++j)
@@ -97,12 +97,7 @@ std::optional<Map> fit_sphere(const std::vector<lvec3>& points, const lvec3& abo
   return Map{lmat3(plain(r)), center};
 }
 
-std::optional<Map> fit_ellipsoid(const std::vector<lvec3>& points) {
-  lvec3 about(0);
-  for (const lvec3& p : points) about += p / static_cast<long double>(points.size());
-  long double size = 0;
-  for (const lvec3& p : points) size = std::max(size, glm::length(p - about));
-  if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+std::optional<Map> fit_ellipsoid(const std::vector<lvec3>& points, const lvec3& about, long double size) {
   Normal<9> normal;
   for (const lvec3& p : points) {
     const lvec3 x = (p - about) / size;
@@ -140,87 +135,137 @@ std::optional<Map> fit_ellipsoid(const std::vector<lvec3>& points) {
   return Map{map, place};
 }
 
-// Bound on |x|^2 / w^2 - 1 over the patch: Bernstein coefficients of |x|^2 - w^2 against those of w^2, one by
-// one, as the quotient of both polynomials is a mean of theirs, with positive weights. (The smallest weight's
-// square in the place of all would ask more, by the square of the ratio of the weights, where the patch is no
-// more exact.)
-template <class Polynomial>
-long double defect_of(const Polynomial& image) {
-  const auto defect = multiply(image, image, [](const lvec4& p, const lvec4& q) {
-    return p.x * q.x + p.y * q.y + p.z * q.z - p.w * q.w;
-  });
-  const auto square = multiply(image, image, [](const lvec4& p, const lvec4& q) { return p.w * q.w; });
-  long double most = 0;
-  for (std::size_t k = 0; k < defect.coefficients.size(); ++k) {
-    const long double here = std::abs(defect.coefficients[k]) / square.coefficients[k];
-    if (!(here <= most)) most = here;
-  }
-  return most;
+// The ellipsoid, or sphere, nearest to points of these patches.
+std::optional<EllipsoidFit> fit_to(const std::vector<Net>& patches, const std::vector<std::size_t>& which,
+                                   bool sphere) {
+  std::vector<lvec3> points;
+  for (const std::size_t k : which) add_samples(patches[k], sphere && which.size() >= many ? 2 : 4, points);
+  lvec3 low(INFINITY), high(-INFINITY), middle(0);
+  for (const lvec3& p : points) low = glm::min(low, p), high = glm::max(high, p), middle += p;
+  middle /= static_cast<long double>(points.size());
+  long double size = 0;
+  for (const lvec3& p : points) size = std::max(size, glm::length(p - middle));
+  if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+  const auto map = sphere ? fit_sphere(points, middle, size) : fit_ellipsoid(points, middle, size);
+  if (!map) return std::nullopt;
+  const lmat3 &m = map->linear, inverse = glm::inverse(m);
+  const auto longest = [](const lmat3& a) {
+    return std::max({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
+  };
+  if (!(longest(m) * longest(inverse) < flattest)) return std::nullopt;
+  if (!(glm::length(high - low) > smallest_part * longest(m))) return std::nullopt;
+  return EllipsoidFit{dmat3(m), dvec3(map->center), 0.0, {}};
 }
 
-// Of a net with positive weights, which then adds what it misses the ellipsoid by.
-bool lies_on(const Net& net, EllipsoidFit& fit) {
-  const lmat3 inverse = glm::inverse(lmat3(fit.linear));
-  const lvec3 center(fit.center);
-  std::vector<lvec4> image;
-  for (const dvec4& p : points_of(net))
-    image.push_back(lvec4(inverse * (lvec3(p) - center * static_cast<long double>(p.w)), p.w));
-  const auto* tensor = std::get_if<TensorNet>(&net);
-  const long double defect =
-      tensor ? defect_of(TensorPolynomial<lvec4>(tensor->m, tensor->n, std::move(image)))
-             : defect_of(TrianglePolynomial<lvec4>(std::get<TriangleNet>(net).n, std::move(image)));
-  const long double distance = glm::length(inverse * center);
-  if (!(defect <= ellipsoid_roundoffs * unit_roundoff * (1 + distance))) return false;
-  fit.off = std::max(fit.off, static_cast<double>(defect / 2));
+// Of a plain net, which then adds what it misses the ellipsoid by.
+bool lies_on(const Net& net, const EllipsoidMap& map, EllipsoidFit& fit) {
+  const double defect = defect_of(net, map);
+  if (!(defect <= ellipsoid_roundoffs * unit_roundoff * static_cast<double>(1 + map.distance))) return false;
+  fit.off = std::max(fit.off, 0.5 * defect);
   return true;
 }
 
-// Of these patches alone.
-std::optional<EllipsoidFit> fit_one(const std::vector<Net>& patches, const std::vector<std::size_t>& which) {
-  std::vector<lvec3> points;
-  for (const std::size_t k : which) add_samples(patches[k], points);
-  const auto map = fit_ellipsoid(points);
-  if (!map) return std::nullopt;
-  lvec3 low(INFINITY), high(-INFINITY);
-  for (const lvec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
-  const lmat3& m = map->linear;
-  const long double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
-  const lmat3 inverse = glm::inverse(m);
-  const long double flat =
-      longest * std::max({glm::length(inverse[0]), glm::length(inverse[1]), glm::length(inverse[2])});
-  if (!(flat < flattest) || !(glm::length(high - low) > smallest_part * longest)) return std::nullopt;
-  return EllipsoidFit{dmat3(m), dvec3(map->center), 0.0, {}};
+// All of these patches on one.
+std::optional<EllipsoidFit> fit_together(const std::vector<Net>& patches,
+                                         const std::vector<std::size_t>& which) {
+  for (const bool sphere : {true, false}) {
+    auto fit = fit_to(patches, which, sphere);
+    if (!fit) continue;
+    const EllipsoidMap map(fit->linear, fit->center);
+    const auto near = [&](std::size_t k) { return may_lie_on(patches[k], map); };
+    const auto on = [&](std::size_t k) { return lies_on(patches[k], map, *fit); };
+    if (!std::all_of(which.begin(), which.end(), near) || !std::all_of(which.begin(), which.end(), on))
+      continue;
+    fit->patches = which;
+    return fit;
+  }
+  return std::nullopt;
 }
 
 bool is_plain(const Net& net) {
   for (const dvec4& p : points_of(net))
     if (!(p.w > 0.0) || !std::isfinite(p.x + p.y + p.z + p.w)) return false;
-  if (const auto* tensor = std::get_if<TensorNet>(&net)) return std::max(tensor->m, tensor->n) <= 8;
-  return std::get<TriangleNet>(net).n <= 8;
+  if (const auto* tensor = std::get_if<TensorNet>(&net))
+    return std::max(tensor->m, tensor->n) <= largest_proven_degree;
+  return std::get<TriangleNet>(net).n <= largest_proven_degree;
+}
+
+// Patches that have no ellipsoid yet, by their first corner's place.
+class Rest {
+ public:
+  Rest(const std::vector<Net>& patches, const std::vector<std::size_t>& which)
+      : patches_(patches), which_(which), left_(patches.size(), false) {
+    for (const std::size_t k : which) {
+      const dvec4& p = points_of(patches[k]).front();
+      left_[k] = true, corners_.push_back({p.x / p.w, k});
+    }
+    std::sort(corners_.begin(), corners_.end());
+  }
+
+  std::optional<std::size_t> first() {
+    while (first_ < which_.size() && !left_[which_[first_]]) ++first_;
+    return first_ < which_.size() ? std::optional(which_[first_]) : std::nullopt;
+  }
+  void remove(std::size_t patch) { left_[patch] = false; }
+
+  // Those that may be on it, in order.
+  std::vector<std::size_t> near(const EllipsoidFit& fit) const {
+    const EllipsoidMap map(fit.linear, fit.center);
+    const dmat3& m = fit.linear;
+    const double half = (1.0 + 1e-5) * glm::length(dvec3(m[0].x, m[1].x, m[2].x)), x = fit.center.x;
+    std::vector<std::size_t> out;
+    auto corner = std::lower_bound(corners_.begin(), corners_.end(), std::pair(x - half, std::size_t{0}));
+    for (; corner != corners_.end() && corner->first <= x + half; ++corner)
+      if (left_[corner->second] && may_lie_on(patches_[corner->second], map)) out.push_back(corner->second);
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+ private:
+  const std::vector<Net>& patches_;
+  const std::vector<std::size_t>& which_;
+  std::vector<bool> left_;
+  std::vector<std::pair<double, std::size_t>> corners_;
+  std::size_t first_ = 0;
+};
+
+// What the seed is on, with all others on it; fitted to all of them where they agree.
+std::optional<EllipsoidFit> fit_around(const std::vector<Net>& patches, const Rest& rest, std::size_t seed) {
+  for (const bool sphere : {true, false}) {
+    auto fit = fit_to(patches, {seed}, sphere);
+    if (!fit) continue;
+    const std::vector<std::size_t> near = rest.near(*fit);
+    if (near.size() > 1)
+      if (auto better = fit_together(patches, near)) return better;
+    const EllipsoidMap map(fit->linear, fit->center);
+    for (const std::size_t k : near)
+      if (lies_on(patches[k], map, *fit)) fit->patches.push_back(k);
+    if (!fit->patches.empty()) return fit;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::vector<EllipsoidFit> fit_ellipsoids(const std::vector<Net>& patches) {
-  std::vector<EllipsoidFit> fits;
-  std::vector<std::size_t> rest;
+  std::vector<std::size_t> which;
   for (std::size_t k = 0; k < patches.size(); ++k)
-    if (is_plain(patches[k])) rest.push_back(k);
+    if (is_plain(patches[k])) which.push_back(k);
+  if (which.empty()) return {};
   // All together where they are on one ellipsoid, which determines it best; else from one after the other.
+  if (auto fit = fit_together(patches, which)) return {*fit};
+  std::vector<EllipsoidFit> fits;
+  Rest rest(patches, which);
   std::size_t failed = 0;
-  for (bool together = true; !rest.empty() && failed < most_fits; together = false) {
-    std::vector<std::size_t> seed = together ? rest : std::vector<std::size_t>{rest.front()};
-    auto fit = fit_one(patches, seed);
-    std::vector<std::size_t> others;
-    for (const std::size_t k : rest) (fit && lies_on(patches[k], *fit) ? fit->patches : others).push_back(k);
-    const bool found = fit && !fit->patches.empty();
-    if (found && !(together && !others.empty())) {
+  while (const auto seed = rest.first()) {
+    const auto fit = fit_around(patches, rest, *seed);
+    if (fit) {
       fits.push_back(*fit);
-      rest = std::move(others);
-    } else if (!together) {
-      ++failed;
-      rest.erase(rest.begin());
+      for (const std::size_t k : fit->patches) rest.remove(k);
+    } else {
+      if (++failed == most_fits) break;
     }
+    rest.remove(*seed);
   }
   return fits;
 }
