@@ -14,8 +14,10 @@ namespace {
 // Of the part of the ellipsoid that is there: within the nets, and within the ellipsoid's own box.
 Box box_of(const PatchedSphere& sphere, const std::vector<Net>& nets) {
   Box hull;
-  for (const SpherePatch& patch : sphere.patches.patches)
-    for (const dvec4& p : points_of(nets[static_cast<std::size_t>(patch.patch)])) hull.add(dvec3(p) / p.w);
+  for (std::size_t k = 0; k < sphere.patches->patches.size(); ++k) {
+    const auto name = static_cast<std::size_t>(sphere.name_of(static_cast<std::int32_t>(k)));
+    for (const dvec4& p : points_of(nets[name])) hull.add(dvec3(p) / p.w);
+  }
   const dmat3 rows = glm::transpose(sphere.ellipsoid.linear);
   const dvec3 half = (1.0 + 1e-12) * dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
   return {glm::max(hull.low, sphere.center - half), glm::min(hull.high, sphere.center + half)};
@@ -23,7 +25,7 @@ Box box_of(const PatchedSphere& sphere, const std::vector<Net>& nets) {
 
 }  // namespace
 
-CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_side) {
+CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpheres found) {
   const Surface& surface = traced.surface;
   CompiledSurface compiled;
   compiled.nets = &surface.patches;
@@ -35,13 +37,11 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_
     const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     compiled.set.boxes = {Box{-half, half}};
   } else {
-    std::vector<bool> rest(surface.patches.size(), true), radial(surface.patches.size(), false);
-    if (traced.solver == Solver::quadric)
-      compiled.spheres = patched_spheres(surface.patches, cells_a_side, rest);
-    std::vector<bool> without(surface.patches.size());
+    compiled.spheres = std::move(found.spheres);
+    std::vector<bool> without(surface.patches.size()), radial(surface.patches.size());
     for (std::size_t k = 0; k < surface.patches.size(); ++k) {
       radial[k] = traced.solver == Solver::radial && has_radial_form(surface.patches[k]);
-      without[k] = radial[k] || !rest[k];
+      without[k] = radial[k] || (!found.rest.empty() && !found.rest[k]);
     }
     compiled.set = build_leaves(surface.patches, max_depth, without);
     for (std::size_t k = 0; k < radial.size(); ++k)

@@ -91,8 +91,8 @@ PatchInverse in_powers(const TrianglePolynomial<lvec4>& p, dvec2 middle, int deg
   return out;
 }
 
-// Whether a / b is the projection of the net's own points, to rounding.
-bool fits(const PatchInverse& inverse, const Net& net) {
+// Whether a / b is the projection of the net's own points, to so many roundoffs as rounding makes of 1.
+bool fits(const PatchInverse& inverse, const Net& net, double rounding) {
   const bool triangle = std::holds_alternative<TriangleNet>(net);
   constexpr int steps = 6;
   for (int i = 0; i <= steps; ++i)
@@ -112,7 +112,7 @@ bool fits(const PatchInverse& inverse, const Net& net) {
         b = b * Complex(u - inverse.middle.x) + row_b;
       }
       const Complex defect = Complex(1.0L - n.z) * a - Complex(n.x, n.y) * b;
-      if (!(std::abs(defect) <= 16.0L * unit_roundoff * (std::abs(a) + std::abs(b)))) return false;
+      if (!(std::abs(defect) <= 16.0L * rounding * unit_roundoff * (std::abs(a) + std::abs(b)))) return false;
     }
   return true;
 }
@@ -157,7 +157,7 @@ int degree_of(const TrianglePolynomial<lvec4>& p) { return p.n; }
 
 }  // namespace
 
-std::optional<PatchInverse> patch_inverse(const Net& net) {
+std::optional<PatchInverse> patch_inverse(const Net& net, double rounding) {
   const bool triangle = std::holds_alternative<TriangleNet>(net);
   const dvec2 middle(triangle ? 1.0 / 3.0 : 0.5);
   if (const auto preimage = sphere_preimage(net)) {
@@ -170,7 +170,7 @@ std::optional<PatchInverse> patch_inverse(const Net& net) {
           });
         },
         *preimage);
-    if (inverse && normalise(*inverse) && fits(*inverse, net)) return inverse;
+    if (inverse && normalise(*inverse) && fits(*inverse, net, rounding)) return inverse;
   }
   // The projection itself: (x + i y) / (w - z).
   const auto itself = [](const lvec4& x) { return Quotient{Complex(x.x, x.y), Complex(x.w - x.z)}; };
@@ -185,7 +185,7 @@ std::optional<PatchInverse> patch_inverse(const Net& net) {
     if (degree_of(p) <= largest_degree)
       inverse = in_powers(p, middle, degree_of(p) <= 2 ? 2 : largest_degree, itself);
   }
-  if (!inverse || !normalise(*inverse) || !fits(*inverse, net)) return std::nullopt;
+  if (!inverse || !normalise(*inverse) || !fits(*inverse, net, rounding)) return std::nullopt;
   return inverse;
 }
 

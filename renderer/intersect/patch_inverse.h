@@ -7,8 +7,8 @@
 
 namespace rondure {
 
-// Of a net on the unit sphere whose middle is near (0, 0, -1). Nothing when its degree, halved where that can
-// be, is above 4.
-std::optional<PatchInverse> patch_inverse(const Net& net);
+// Of a net on the unit sphere, to `rounding` roundoffs, whose middle is near (0, 0, -1). Nothing when its
+// degree, halved where that can be, is above 4.
+std::optional<PatchInverse> patch_inverse(const Net& net, double rounding);
 
 }  // namespace rondure

@@ -8,17 +8,17 @@
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/hierarchy.h"
 #include "renderer/intersect/leaf.h"
+#include "renderer/intersect/patched_spheres.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/intersect/solve_leaf.h"
-#include "renderer/intersect/sphere_solver.h"
 #include "renderer/intersect/tracer.h"
 
 namespace rondure {
 
 // What a solver needs of one surface, beside its nets.
 struct CompiledSurface {
-  LeafSet set;                         // one box and no leaf for an analytic surface
-  Box bounds;                          // of all leaves
+  LeafSet set;  // one box and no leaf for an analytic surface
+  Box bounds;   // of all leaves
   bool closed = false;
   std::vector<RadialPiece> radial;     // of the last leaves
   std::vector<PatchedSphere> spheres;  // of the boxes after all leaves
@@ -28,9 +28,9 @@ struct CompiledSurface {
   Solver solver = Solver::newton;
 };
 
-// Throws std::runtime_error where a net cannot be bounded. `max_depth`: halvings of a patch. `cells_a_side`:
-// of the grid of a sphere's patches.
-CompiledSurface compile(const TracedSurface& traced, int max_depth, int cells_a_side);
+// Throws std::runtime_error where a net cannot be bounded. `max_depth`: halvings of a patch. `found`: what
+// its patches lie on, if that is asked for.
+CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpheres found);
 
 // Of the leaves of surfaces that share them; none of a single leaf.
 std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled);

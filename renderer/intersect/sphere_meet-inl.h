@@ -65,7 +65,7 @@ HWY_INLINE bool meet(const SphereTarget& target, const double* const* rays, Grou
   z = shrink * from[2] + s * (shrink * dz);
 
   // As cell_at.
-  const SpherePatches& patches = target.sphere->patches;
+  const SpherePatches& patches = *target.sphere->patches;
   const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
   const M z_leads = hn::Gt(az, hn::Max(ax, ay)), y_leads = hn::Gt(ay, ax);
   const auto chosen = [&](V p, V q, V r)

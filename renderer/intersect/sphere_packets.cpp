@@ -37,6 +37,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct Held {
   const SphereCell* cells[lane_count];
   const SpherePatch* patches[lane_count];
+  std::int32_t owners[lane_count];
   V owned, several;  // 1 or 0
 };
 
@@ -44,7 +45,8 @@ HWY_INLINE void fetch(const SpherePatches& all, const Group& g, Held& held) {
   alignas(64) double owned[lane_count], several[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) {
     const SphereCell& cell = all.cells[static_cast<std::size_t>(g.cell[k])];
-    held.cells[k] = &cell, held.patches[k] = &all.patches[static_cast<std::size_t>(std::max(cell.owner, 0))];
+    held.cells[k] = &cell, held.owners[k] = std::max(cell.owner, 0);
+    held.patches[k] = &all.patches[static_cast<std::size_t>(held.owners[k])];
     owned[k] = cell.owner < 0 ? 0.0 : 1.0, several[k] = cell.next < 0 ? 0.0 : 1.0;
   }
   held.owned = hn::Load(D(), owned), held.several = hn::Load(D(), several);
@@ -184,7 +186,7 @@ HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group
     const bool mine = k < count && known[k] != 0.0 && rays[k].start.surface != target.surface;
     to[k] = mine ? &hits[k].t : nullptr;
     if (k < count) done[k] = mine ? 1 : 0;
-    names[k] = static_cast<std::int64_t>(held.patches[k]->patch) << 32 | target.surface;
+    names[k] = static_cast<std::int64_t>(target.sphere->name_of(held.owners[k])) << 32 | target.surface;
     outward[k] = held.patches[k]->outward;
   }
   const dvec3 &frame = target.frame, &center = target.sphere->center;
@@ -219,7 +221,7 @@ void closest_wide(const SphereTarget& target, const Ray* rays, std::size_t count
   constexpr std::size_t groups = 2;
   Group group[groups];
   Held held[groups];
-  const SpherePatches& patches = target.sphere->patches;
+  const SpherePatches& patches = *target.sphere->patches;
   for (std::size_t first = 0; first < count; first += groups * lane_count) {
     const auto begin = [&](std::size_t g) HWY_ATTR { return std::min(first + g * lane_count, count); };
     const std::size_t used = begin(1) < count ? groups : 1;
@@ -259,7 +261,7 @@ HWY_EXPORT(closest_wide);
 
 void closest_on_sphere(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        unsigned char* done) noexcept {
-  if (!(target.inverse_radius > 0.0)) {
+  if (!(target.inverse_radius > 0.0) || target.sphere->turned) {
     for (std::size_t k = 0; k < count; ++k) done[k] = 0;
     return;
   }

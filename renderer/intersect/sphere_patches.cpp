@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
@@ -11,7 +12,8 @@
 namespace rondure {
 namespace {
 
-// Nets of congruent patches, each in its own frame and with weight 1 in the middle, differ by rounding.
+// By how much coordinates of congruent patches' nets may differ, each in its own frame and with weight 1 in
+// the middle, in units of what rounding makes of them.
 constexpr double congruent = 16.0 * unit_roundoff;
 
 void set_frame(const Net& net, SpherePatch& patch) {
@@ -37,15 +39,45 @@ Net in_frame(const Net& net, const SpherePatch& patch) {
   return out;
 }
 
-bool alike(const Net& a, const Net& b) {
+bool same_degrees(const Net& a, const Net& b) {
   if (a.index() != b.index()) return false;
   const auto *p = std::get_if<TensorNet>(&a), *q = std::get_if<TensorNet>(&b);
-  if (p && (p->m != q->m || p->n != q->n)) return false;
+  if (p) return p->m == q->m && p->n == q->n;
+  return std::get<TriangleNet>(a).n == std::get<TriangleNet>(b).n;
+}
+
+// What patch k of a sphere's is, in its frame.
+const std::vector<dvec4>& known_of(const SpherePatches& patches, const std::vector<Net>& known,
+                                   std::size_t k) {
+  return points_of(known[static_cast<std::size_t>(patches.patches[k].inverse)]);
+}
+
+double weight_of(const std::vector<dvec4>& points) {
+  double sum = 0.0;
+  for (const dvec4& p : points) sum += p.w;
+  return sum;
+}
+
+bool alike(const dvec4& p, const dvec4& q, double rounding) {
+  const dvec4 d = glm::abs(p - q);
+  return std::max({d.x, d.y, d.z, d.w}) <= congruent * rounding * std::max(1.0, p.w);
+}
+bool alike(const Net& a, const Net& b, double rounding) {
   const auto &x = points_of(a), &y = points_of(b);
-  if (x.size() != y.size()) return false;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const dvec4 d = glm::abs(x[k] - y[k]);
-    if (!(std::max({d.x, d.y, d.z, d.w}) <= congruent * std::max(1.0, x[k].w))) return false;
+  return same_degrees(a, b) && std::equal(x.begin(), x.end(), y.begin(), [&](const dvec4& p, const dvec4& q) {
+           return alike(p, q, rounding);
+         });
+}
+
+// Whether the known nets are these, turned.
+bool are_alike(const SpherePatches& patches, const std::vector<Net>& known, const std::vector<Net>& nets,
+               const dmat3& turn, double rounding) {
+  for (std::size_t k = 0; k < nets.size(); ++k) {
+    const std::vector<dvec4>&x = known_of(patches, known, k), &y = points_of(nets[k]);
+    const dmat3 to_frame = dmat3(patches.patches[k].axes) * turn;
+    const double scale = weight_of(x) / weight_of(y);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!alike(x[i], scale * dvec4(to_frame * dvec3(y[i]), y[i].w), rounding)) return false;
   }
   return true;
 }
@@ -85,19 +117,17 @@ double invert(const PatchInverse& inverse, const SpherePatch& patch, const dvec3
   return moved;
 }
 
-bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::size_t>& which,
-                          int cells_a_side, SpherePatches& out) {
-  std::vector<Net> known;  // of each inverse
+bool build_sphere_patches(const std::vector<Net>& nets, double rounding, int cells_a_side, SpherePatches& out,
+                          std::vector<Net>& known) {
   for (std::size_t k = 0; k < nets.size(); ++k) {
     SpherePatch patch;
-    patch.patch = static_cast<std::int32_t>(which[k]);
     patch.triangle = std::holds_alternative<TriangleNet>(nets[k]);
     set_frame(nets[k], patch);
     Net local = in_frame(nets[k], patch);
     std::size_t same = 0;
-    while (same < known.size() && !alike(known[same], local)) ++same;
+    while (same < known.size() && !alike(known[same], local, rounding)) ++same;
     if (same == known.size()) {
-      const auto inverse = patch_inverse(local);
+      const auto inverse = patch_inverse(local, rounding);
       if (!inverse) return false;
       out.inverses.push_back(*inverse);
       known.push_back(std::move(local));
@@ -108,6 +138,38 @@ bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::s
   out.cells_a_side = cells_a_side;
   fill_sphere_cells(nets, out);
   return true;
+}
+
+std::optional<dmat3> turn_onto(const SpherePatches& patches, const std::vector<Net>& known,
+                               const std::vector<Net>& nets, double rounding) {
+  if (nets.size() != patches.patches.size()) return std::nullopt;
+  for (std::size_t k = 0; k < nets.size(); ++k)
+    if (!same_degrees(known[static_cast<std::size_t>(patches.patches[k].inverse)], nets[k]))
+      return std::nullopt;
+  if (are_alike(patches, known, nets, dmat3(1.0), rounding)) return dmat3(1.0);
+  // The nearest rotation, in the sense of least squares: the orthogonal factor of the points' products.
+  dmat3 turn(0.0);
+  for (std::size_t k = 0; k < nets.size(); ++k) {
+    const std::vector<dvec4>&x = known_of(patches, known, k), &y = points_of(nets[k]);
+    dmat3 sum(0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) sum += glm::outerProduct(dvec3(x[i]), dvec3(y[i]));
+    turn += (1.0 / weight_of(y)) * (glm::transpose(dmat3(patches.patches[k].axes)) * sum);
+  }
+  // Higham 1986: Newton's iteration, scaled.
+  const auto size2 = [](const dmat3& m) {
+    return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
+  };
+  if (!(glm::determinant(turn) > 0.0)) return std::nullopt;
+  for (int k = 0; k < 12; ++k) {
+    const dmat3 other = glm::transpose(glm::inverse(turn));
+    const double scale = std::sqrt(std::sqrt(size2(other) / size2(turn)));
+    const dmat3 next = (0.5 * scale) * turn + (0.5 / scale) * other;
+    const double moved = size2(next - turn);
+    turn = next;
+    if (moved < 1e-20) break;
+  }
+  if (!are_alike(patches, known, nets, turn, rounding)) return std::nullopt;
+  return turn;
 }
 
 }  // namespace rondure

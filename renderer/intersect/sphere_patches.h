@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/mat3x4.hpp>
+#include <optional>
 #include <vector>
 
 #include "renderer/bezier/quotient.h"
@@ -40,7 +41,6 @@ struct PatchInverse {
 struct SpherePatch {
   glm::dmat3x4 axes{0.0};  // to the frame in which the patch's middle is (0, 0, -1); its last row is zero
   std::int32_t inverse = 0;
-  std::int32_t patch = 0;  // of the surface
   bool triangle = false;
   double outward = 1.0;  // -1 where d/du x d/dv points to the middle of the sphere
 };
@@ -73,21 +73,29 @@ struct SphereCandidate {
 
 struct SpherePatches {
   std::vector<PatchInverse> inverses;
-  std::vector<SpherePatch> patches;
+  std::vector<SpherePatch> patches;  // in the order of their nets
   int cells_a_side = 0;
   std::vector<SphereCell> cells;  // [(face * side + row) * side + column], then those that others call next
   std::vector<SphereCandidate> candidates;
 
   std::size_t bytes() const {
-    return inverses.size() * sizeof(PatchInverse) + patches.size() * sizeof(SpherePatch) +
-           cells.size() * sizeof(SphereCell) + candidates.size() * sizeof(SphereCandidate);
+    return sizeof(SpherePatches) + inverses.size() * sizeof(PatchInverse) +
+           patches.size() * sizeof(SpherePatch) + cells.size() * sizeof(SphereCell) +
+           candidates.size() * sizeof(SphereCandidate);
   }
 };
 
-// Of nets on the unit sphere, with positive weights; `which[k]` is what net k is called in the surface. False
-// when some net has no inverse of low enough degree.
-bool build_sphere_patches(const std::vector<Net>& nets, const std::vector<std::size_t>& which,
-                          int cells_a_side, SpherePatches& out);
+// Of nets on the unit sphere, with positive weights, to `rounding` roundoffs. False when some net has no
+// inverse of low enough degree. `known`: for each inverse the net that it is of, in its patch's frame and of
+// weight 1 in the middle.
+bool build_sphere_patches(const std::vector<Net>& nets, double rounding, int cells_a_side, SpherePatches& out,
+                          std::vector<Net>& known);
+
+// The rotation after which nets on the unit sphere have these patches and inverses, as the known nets have
+// them that these were made for: to rounding, as congruent patches share an inverse. Nothing when there is
+// none.
+std::optional<dmat3> turn_onto(const SpherePatches& patches, const std::vector<Net>& known,
+                               const std::vector<Net>& nets, double rounding);
 
 // A cell, and the point's place in it.
 struct CellPlace {

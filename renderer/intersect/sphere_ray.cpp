@@ -75,24 +75,26 @@ HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, Meeting& o
   // As sphere_point.
   const Triple shrink(target.inverse_radius);
   const Triple rough = shrink * from + Triple(enters ? enter : leave) * (shrink * d);
-  out.cell = cell_at(rough.vector(), target.sphere->patches.cells_a_side);
+  out.cell = cell_at(target.sphere->to_patches(rough.vector()), target.sphere->patches->cells_a_side);
   const double off = (1.0 - dot(rough, rough)) * 0.5;
   out.point = (rough + Triple(off) * rough).vector();
   out.t_error = 2.0 * (target.stretch * inverse_length2 / half) + 0x1p-52 * std::fabs(out.t);
   return RayAnswer::hit;
 }
 
-// The patch of a cell that holds the point, by the ordinary way; none where it takes more.
-HWY_INLINE const SpherePatch* place(const SpherePatches& patches, const Meeting& at, dvec2& p) {
+// Which patch of a cell holds the point, by the ordinary way; -1 where it takes more.
+HWY_INLINE std::int32_t place(const PatchedSphere& sphere, const Meeting& at, dvec2& p) {
+  const SpherePatches& patches = *sphere.patches;
   const SphereCell& cell = cell_around(patches, at.cell, p);
-  if (cell.owner < 0) return nullptr;
+  if (cell.owner < 0) return -1;
   const SpherePatch& patch = patches.patches[static_cast<std::size_t>(cell.owner)];
   const PatchInverse& inverse = patches.inverses[static_cast<std::size_t>(patch.inverse)];
-  const bool good = inverse.degree == 2 ? find_parameters<2>(inverse, patch, at.point, p.x, p.y)
-                                        : find_parameters<4>(inverse, patch, at.point, p.x, p.y);
-  if (!good || !in_domain(inverse, patch.triangle, p)) return nullptr;
+  const dvec3 point = sphere.to_patches(at.point);
+  const bool good = inverse.degree == 2 ? find_parameters<2>(inverse, patch, point, p.x, p.y)
+                                        : find_parameters<4>(inverse, patch, point, p.x, p.y);
+  if (!good || !in_domain(inverse, patch.triangle, p)) return -1;
   p += inverse.middle;
-  return &patch;
+  return cell.owner;
 }
 
 RayAnswer closest(const SphereTarget& target, const Ray& ray, Hit& hit) {
@@ -100,23 +102,22 @@ RayAnswer closest(const SphereTarget& target, const Ray& ray, Hit& hit) {
   if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
   const PatchedSphere& sphere = *target.sphere;
   dvec2 p;
-  const SpherePatch* patch = place(sphere.patches, at, p);
-  if (!patch) return RayAnswer::unknown;
+  const std::int32_t patch = place(sphere, at, p);
+  if (patch < 0) return RayAnswer::unknown;
   const double radius = sphere.ellipsoid.uniform_radius;
   hit.t = at.t, hit.t_error = at.t_error;
-  hit.surface = target.surface, hit.patch = patch->patch, hit.u = p.x, hit.v = p.y;
+  hit.surface = target.surface, hit.patch = sphere.name_of(patch), hit.u = p.x, hit.v = p.y;
   hit.point = target.frame + (sphere.center + radius * at.point);
-  hit.normal = patch->outward * at.point;
+  hit.normal = sphere.patches->patches[static_cast<std::size_t>(patch)].outward * at.point;
   return RayAnswer::hit;
 }
 
 RayAnswer occludes(const SphereTarget& target, const Ray& ray) {
   Meeting at;
   if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
-  const SpherePatches& patches = target.sphere->patches;
-  const SphereCell& cell = patches.cells[at.cell.cell];
+  const SphereCell& cell = target.sphere->patches->cells[at.cell.cell];
   dvec2 p;
-  if ((cell.owner >= 0 && cell.others < 0) || place(patches, at, p)) return RayAnswer::hit;
+  if ((cell.owner >= 0 && cell.others < 0) || place(*target.sphere, at, p) >= 0) return RayAnswer::hit;
   return RayAnswer::unknown;
 }
 

@@ -7,7 +7,6 @@
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/cell.h"
 #include "renderer/intersect/direction_search.h"
-#include "renderer/intersect/ellipsoid_fit.h"
 
 namespace rondure {
 namespace {
@@ -79,14 +78,6 @@ dvec2 into_domain(const PatchedSphere& sphere, const SpherePatch& patch, const N
   return clamp_to(patch, p + std::clamp(0.0, low, high) * rate, beyond);
 }
 
-// The net in the unit sphere's space.
-Net image_of(const PatchedSphere& sphere, const Net& net) {
-  Net image = net;
-  for (dvec4& p : points_of(image))
-    p = dvec4(sphere.ellipsoid.inverse * (dvec3(p) - sphere.center * p.w), p.w);
-  return image;
-}
-
 // Two steps of Newton's method on the net itself, in coordinates that keep their digits near zero: of
 // singular points the polynomials a and b know only to rounding where they are.
 void polish(const PatchedSphere& sphere, const Net& net, const dvec3& n, dvec2& p) {
@@ -117,61 +108,73 @@ bool steps_from(const PatchInverse& inverse, const SpherePatch& patch, const dve
   return false;
 }
 
+// `n`: in the patches' space.
 std::optional<PlaceOnSphere> in_owned_cell(const PatchedSphere& sphere, const SphereCell& cell, dvec2 p,
                                            const dvec3& n) {
-  const SpherePatch& patch = sphere.patches.patches[static_cast<std::size_t>(cell.owner)];
-  const PatchInverse& inverse = sphere.patches.inverses[static_cast<std::size_t>(patch.inverse)];
+  const SpherePatch& patch = sphere.patches->patches[static_cast<std::size_t>(cell.owner)];
+  const PatchInverse& inverse = sphere.patches->inverses[static_cast<std::size_t>(patch.inverse)];
   const bool good =
       inverse.degree == 2 ? steps_from<2>(inverse, patch, n, p) : steps_from<4>(inverse, patch, n, p);
   if (!good) return std::nullopt;
   double beyond;
   p = clamp_to(patch, p + inverse.middle, beyond);
   if (!(beyond <= 0.0)) return std::nullopt;
-  return PlaceOnSphere{patch.patch, p.x, p.y, patch.outward};
+  return PlaceOnSphere{sphere.name_of(cell.owner), p.x, p.y, patch.outward};
 }
 
 std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const std::vector<Net>& nets,
                                               const SphereCandidate* candidate, const dvec3& n,
                                               const Reach& reach) {
-  const SpherePatches& all = sphere.patches;
+  const SpherePatches& all = *sphere.patches;
+  const dvec3 turned = sphere.to_patches(n);
   const SphereCandidate* const begin = candidate;
   // Those well inside first: most points are.
   for (; candidate->patch >= 0; ++candidate) {
     const SpherePatch& patch = all.patches[static_cast<std::size_t>(candidate->patch)];
     const PatchInverse& inverse = all.inverses[static_cast<std::size_t>(patch.inverse)];
+    const std::int32_t name = sphere.name_of(candidate->patch);
     dvec2 p(candidate->u, candidate->v);
-    if (!(invert(inverse, patch, n, 8, p) < 1e-14)) continue;
+    if (!(invert(inverse, patch, turned, 8, p) < 1e-14)) continue;
     double beyond;
     p += inverse.middle;
-    polish(sphere, nets[static_cast<std::size_t>(patch.patch)], n, p);
+    polish(sphere, nets[static_cast<std::size_t>(name)], n, p);
     p = clamp_to(patch, p, beyond);
-    if (beyond <= 0.0) return PlaceOnSphere{patch.patch, p.x, p.y, patch.outward};
+    if (beyond <= 0.0) return PlaceOnSphere{name, p.x, p.y, patch.outward};
   }
   for (candidate = begin; candidate->patch >= 0; ++candidate) {
     const SpherePatch& patch = all.patches[static_cast<std::size_t>(candidate->patch)];
     const PatchInverse& inverse = all.inverses[static_cast<std::size_t>(patch.inverse)];
-    const Net& net = nets[static_cast<std::size_t>(patch.patch)];
+    const std::int32_t name = sphere.name_of(candidate->patch);
+    const Net& net = nets[static_cast<std::size_t>(name)];
     dvec2 p(candidate->u, candidate->v);
-    if (!(invert(inverse, patch, n, 8, p) < 1e-14)) continue;
+    if (!(invert(inverse, patch, turned, 8, p) < 1e-14)) continue;
     double beyond;
     p += inverse.middle;
     const dvec2 nearest = clamp_to(patch, p, beyond);
     // However far: beside a collapsed side rounding turns the parameter along it by any amount.
     const dvec2 q = beyond < 1e-3 ? into_domain(sphere, patch, net, p, reach) : nearest;
-    if (shows(sphere, net, q, n, reach)) return PlaceOnSphere{patch.patch, q.x, q.y, patch.outward};
+    if (shows(sphere, net, q, n, reach)) return PlaceOnSphere{name, q.x, q.y, patch.outward};
   }
   // Newton's method settles at none, or where the polynomials have another zero.
   for (candidate = begin; candidate->patch >= 0; ++candidate) {
     const SpherePatch& patch = all.patches[static_cast<std::size_t>(candidate->patch)];
-    const Net& net = nets[static_cast<std::size_t>(patch.patch)];
+    const std::int32_t name = sphere.name_of(candidate->patch);
+    const Net& net = nets[static_cast<std::size_t>(name)];
     const auto found = search_direction(image_of(sphere, net), n);
     if (found && shows(sphere, net, *found, n, reach))
-      return PlaceOnSphere{patch.patch, found->x, found->y, patch.outward};
+      return PlaceOnSphere{name, found->x, found->y, patch.outward};
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+Net image_of(const PatchedSphere& sphere, const Net& net) {
+  Net image = net;
+  for (dvec4& p : points_of(image))
+    p = dvec4(sphere.ellipsoid.inverse * (dvec3(p) - sphere.center * p.w), p.w);
+  return image;
+}
 
 bool meet_sphere(const PatchedSphere& sphere, const dvec3& origin, const dvec3& frame, LocalRay& ray,
                  SphereRoots& roots) noexcept {
@@ -228,14 +231,15 @@ SpherePoint sphere_point(const SphereRoots& r, int side) noexcept {
 
 std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
                                              const SpherePoint& point, const Reach& reach) noexcept {
-  const CellPlace at = cell_at(point.rough, sphere.patches.cells_a_side);
-  const SphereCell& cell = sphere.patches.cells[at.cell];
+  const SpherePatches& patches = *sphere.patches;
+  const CellPlace at = cell_at(sphere.to_patches(point.rough), patches.cells_a_side);
+  const SphereCell& cell = patches.cells[at.cell];
   dvec2 start;
-  if (const SphereCell& mine = cell_around(sphere.patches, at, start); mine.owner >= 0)
-    if (const auto place = in_owned_cell(sphere, mine, start, point.n)) return place;
+  if (const SphereCell& mine = cell_around(patches, at, start); mine.owner >= 0)
+    if (const auto place = in_owned_cell(sphere, mine, start, sphere.to_patches(point.n))) return place;
   if (cell.others >= 0)
-    return among_candidates(sphere, nets, &sphere.patches.candidates[static_cast<std::size_t>(cell.others)],
-                            point.n, reach);
+    return among_candidates(sphere, nets, &patches.candidates[static_cast<std::size_t>(cell.others)], point.n,
+                            reach);
   if (cell.owner < 0) return std::nullopt;
   const SphereCandidate alone[2] = {{cell.owner, cell.start[0][0], cell.start[0][1]}, {-1, 0.0f, 0.0f}};
   return among_candidates(sphere, nets, alone, point.n, reach);
@@ -243,31 +247,9 @@ std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const 
 
 bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const SpherePoint& point,
             const Reach& reach) noexcept {
-  const CellPlace at = cell_at(point.rough, sphere.patches.cells_a_side);
-  const SphereCell& cell = sphere.patches.cells[at.cell];
+  const CellPlace at = cell_at(sphere.to_patches(point.rough), sphere.patches->cells_a_side);
+  const SphereCell& cell = sphere.patches->cells[at.cell];
   return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, point, reach).has_value();
-}
-
-std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int cells_a_side,
-                                           std::vector<bool>& rest) {
-  rest.assign(patches.size(), true);
-  std::vector<PatchedSphere> out;
-  for (const EllipsoidFit& fit : fit_ellipsoids(patches)) {
-    PatchedSphere sphere{Ellipsoid(fit.linear), fit.center, 0.0, 0.0, 0.0, {}};
-    sphere.error = ellipsoid_error(sphere.ellipsoid) + fit.off * sphere.ellipsoid.extent;
-    // The square of its radius must be a number, too.
-    if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
-      sphere.inverse_radius = 1.0 / r;
-    std::vector<Net> nets;
-    for (const std::size_t k : fit.patches) nets.push_back(image_of(sphere, patches[k]));
-    if (!build_sphere_patches(nets, fit.patches, cells_a_side, sphere.patches)) continue;
-    for (const std::size_t k : fit.patches) rest[k] = false;
-    sphere.outward = sphere.patches.patches[0].outward;
-    for (const SpherePatch& patch : sphere.patches.patches)
-      if (patch.outward != sphere.outward) sphere.outward = 0.0;
-    out.push_back(std::move(sphere));
-  }
-  return out;
 }
 
 }  // namespace rondure

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "renderer/intersect/ellipsoid.h"
@@ -9,19 +10,29 @@
 
 namespace rondure {
 
-// center + linear . (unit sphere), in the surface's frame, and what of it is there.
+// center + linear . (unit sphere), in the surface's frame, and what of it is there. Ellipsoids whose patches
+// are the same but for a rotation of the unit sphere share what is known of them.
 struct PatchedSphere {
-  Ellipsoid ellipsoid;
   dvec3 center{0.0};
   double inverse_radius = 0.0;  // of a sphere, whose radius is the ellipsoid's; 0 of others
   double error = 0.0;    // bound on the distance of a hit from the patch's own, at right angles to the ray
   double outward = 0.0;  // what all patches have in common, as in SpherePatch; 0: nothing
-  SpherePatches patches;
+  bool turned = false;
+  dmat3 turn{1.0};  // from the unit sphere's space to that of the patches, where it is another
+  std::shared_ptr<const SpherePatches> patches;
+  // What patch k is called in the surface: first + k, or names[k] where they do not follow one another.
+  std::int32_t first = 0;
+  std::vector<std::int32_t> names;
+  Ellipsoid ellipsoid{dmat3(1.0)};
+
+  dvec3 to_patches(const dvec3& n) const { return turned ? turn * n : n; }
+  std::int32_t name_of(std::int32_t patch) const {
+    return names.empty() ? first + patch : names[static_cast<std::size_t>(patch)];
+  }
 };
 
-// Of the patches that lie on ellipsoids; `rest[k]`: patch k is in none. `cells_a_side`: of the grid of cells.
-std::vector<PatchedSphere> patched_spheres(const std::vector<Net>& patches, int cells_a_side,
-                                           std::vector<bool>& rest);
+// The net in the unit sphere's space.
+Net image_of(const PatchedSphere& sphere, const Net& net);
 
 // What the sphere's two roots have in common.
 struct SphereRoots {

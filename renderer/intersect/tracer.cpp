@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <stdexcept>
+#include <unordered_set>
 
 #include "renderer/intersect/query.h"
 #include "renderer/intersect/short_ray.h"
@@ -67,10 +68,6 @@ namespace {
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
-// As many cells if each distinct surface were one sphere, of 96 bytes and some microseconds a cell, from a side
-// of `most_cells` down.
-constexpr double cell_budget = 0x1p17;
-constexpr int most_cells = 20, fewest_cells = 4;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
@@ -91,9 +88,13 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   const int depth = std::clamp(static_cast<int>(std::log2(leaf_budget / static_cast<double>(patches))),
                                shallowest, deepest);
 
-  const int cells =
-      std::clamp(static_cast<int>(std::sqrt(cell_budget / static_cast<double>(6 * firsts.size() + 1))),
-                 fewest_cells, most_cells);
+  std::vector<const std::vector<Net>*> nets;
+  for (const unsigned k : firsts) {
+    const TracedSurface& traced = self.surfaces[k];
+    nets.push_back(traced.solver == Solver::quadric && !traced.surface.ellipsoid ? &traced.surface.patches
+                                                                                 : nullptr);
+  }
+  std::vector<SurfaceSpheres> spheres = patched_spheres(nets);
 
   self.distinct.resize(firsts.size());
   self.compiled.resize(count);
@@ -102,7 +103,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     try {
       CompiledSurface& compiled = self.distinct[k];
       self.compiled[firsts[k]] = &compiled;
-      compiled = compile(self.surfaces[firsts[k]], depth, cells);
+      compiled = compile(self.surfaces[firsts[k]], depth, std::move(spheres[k]));
       if (twin_counts[firsts[k]] > 1) compiled.hierarchy = hierarchy_of(compiled);
     } catch (const std::runtime_error& error) {
       errors[k] = error.what();
@@ -249,9 +250,13 @@ TracerStatistics Tracer::statistics() const {
     for (const Net& net : self.surfaces[k].surface.patches)
       s.bytes += sizeof(Net) + points_of(net).size() * sizeof(dvec4);
   }
+  std::unordered_set<const SpherePatches*> shared;
   for (const CompiledSurface& compiled : self.distinct) {
-    s.bytes += compiled.set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
-    for (const PatchedSphere& sphere : compiled.spheres) s.bytes += sizeof(sphere) + sphere.patches.bytes();
+    s.bytes += sizeof(CompiledSurface) + compiled.set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
+    for (const PatchedSphere& sphere : compiled.spheres) {
+      s.bytes += sizeof(sphere) + sphere.names.size() * sizeof(sphere.names[0]);
+      if (shared.insert(sphere.patches.get()).second) s.bytes += sphere.patches->bytes();
+    }
     if (compiled.hierarchy) s.bytes += compiled.hierarchy->bytes();
   }
   if (self.hierarchy) s.bytes += self.hierarchy->bytes();
