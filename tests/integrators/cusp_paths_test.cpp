@@ -265,7 +265,7 @@ std::vector<Pair> pairs() {
 }
 
 TEST_CASE("Paths between mirrors that touch pass neither", "[once][integrators]") {
-  const double wanted = wanted_paths(1e4, 0.001);
+  const double wanted = wanted_paths(1e4);
   const std::vector<Pair> all = pairs();
   double shares = 0.0;
   for (const Pair& pair : all) shares += pair.share;

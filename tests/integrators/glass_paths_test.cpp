@@ -242,7 +242,7 @@ class Walk {
 
 TEST_CASE("Paths in tiled glass keep their side and their light", "[once][integrators]") {
   // In all; a body met by clipping gets a twentieth.
-  const double wanted = wanted_paths(1.2e5, 0.01);
+  const double wanted = wanted_paths(1.2e5);
   const std::vector<Body> all = glass_bodies();
   Tally tally;
   std::uint64_t seed = 1;

@@ -4,20 +4,18 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
+
+#include "tests/soak.h"
 
 namespace rondure {
 
-// `usual` paths, a twentieth of them under the sanitizers; in a soak 10^8, or the part of them, at least
-// `least`, that RONDURE_SOAK names.
-inline double wanted_paths(double usual, double least) {
+// `usual` paths, a twentieth of them under the sanitizers; in a soak 10^8.
+inline double wanted_paths(double usual) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   usual *= 0.05;
 #endif
-  const char* const soak = std::getenv("RONDURE_SOAK");
-  return soak ? 1e8 * std::clamp(std::atof(soak), least, 1.0) : usual;
+  return soaked(usual, 1e8);
 }
 
 // walk.walk(seed, k, tally) for every k below `paths`, in parts of `grain`; the tallies merged.

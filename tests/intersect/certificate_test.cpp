@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -15,6 +14,7 @@
 #include "tests/intersect/random_direction.h"
 #include "tests/intersect/ray_classes.h"
 #include "tests/oracle/oracle.h"
+#include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -36,7 +36,7 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
   for (const ClosedModel& model : closed_models()) {
     const Tracer tracer({{model.surface, Solver::newton}});
     const Certifier certifier(tracer);
-    const long rays = std::getenv("RONDURE_SOAK") ? 3000 : 11;
+    const long rays = static_cast<long>(soaked(11, 3000));
     for (long k = 0; k < rays; ++k) {
       const auto which = static_cast<RayClass>(k % static_cast<long>(RayClass::count));
       if (which == RayClass::from_surface) continue;

@@ -13,7 +13,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -26,6 +25,7 @@
 #include "tests/intersect/equal_surfaces.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/oracle/oracle.h"
+#include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -145,8 +145,8 @@ struct Place {
   double t;
 };
 
-// A ray that meets a flat patch twice, or leaves its plane by no more than `band` on the way across the patch,
-// runs within it: wherever it is nearer than `band`, any t is right, and none.
+// A ray that meets a flat patch twice, or leaves its plane by no more than `band` on the way across the
+// patch, runs within it: wherever it is nearer than `band`, any t is right, and none.
 bool within_a_plane(const Surface& surface, const Ray& ray, double radius, const std::vector<Place>& places,
                     double band) {
   std::size_t near = 0;
@@ -275,7 +275,7 @@ void compare(const Subject& subject, const EqualSurface& equal, const Tracer& ol
 }  // namespace
 
 TEST_CASE("A patch equals its subdivisions, elevations and projective re-parametrisations", "[equalities]") {
-  const int count = std::getenv("RONDURE_SOAK") ? 30'000 : 150;
+  const int count = static_cast<int>(soaked(150, 30'000));
   Tally tally;
   unsigned seed = 0;
   for (const Subject& subject : subjects())

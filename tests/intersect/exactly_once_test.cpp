@@ -6,7 +6,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include <array>
-#include <cstdlib>
 
 #include "renderer/intersect/local_ray.h"
 #include "renderer/intersect/solve_leaf.h"
@@ -14,6 +13,7 @@
 #include "tests/intersect/ray_classes.h"
 #include "tests/intersect/sphere_reference.h"
 #include "tests/intersect/verdict.h"
+#include "tests/soak.h"
 
 using namespace rondure;
 
@@ -160,7 +160,7 @@ constexpr bool sanitized = true;  // some twenty times slower: one model of six,
 constexpr bool sanitized = false;
 #endif
 
-double effort() { return sanitized ? 0.0 : std::getenv("RONDURE_SOAK") ? 100.0 : 1.0; }
+double effort() { return sanitized ? 0.0 : soaked(1.0, 100.0); }
 
 void require_clean(const Tally& tally, const std::string& what) {
   std::string table;

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "renderer/bezier/rational.h"
@@ -12,6 +11,7 @@
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/intersect/random_direction.h"
+#include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -145,7 +145,7 @@ void compare(const Surface& surface, const Tracer& radial, const Tracer& other, 
   }
 }
 
-int soak(int count) { return std::getenv("RONDURE_SOAK") ? 50 * count : count; }
+int soak(int count) { return static_cast<int>(soaked(count, 50.0 * count)); }
 
 }  // namespace
 

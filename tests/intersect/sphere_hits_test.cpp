@@ -4,7 +4,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "renderer/bezier/rational.h"
@@ -15,6 +14,7 @@
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/intersect/sphere_reference.h"
+#include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
 #include "tests/worst_case.h"
 
@@ -248,7 +248,7 @@ double effort() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return 0.05;
 #else
-  return std::getenv("RONDURE_SOAK") ? 100.0 : 1.0;
+  return soaked(1.0, 100.0);
 #endif
 }
 

@@ -13,6 +13,7 @@
 #include "tests/paths.h"
 #include "tests/process.h"
 #include "tests/render/staged_scene.h"
+#include "tests/soak.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -129,7 +130,7 @@ TEST_CASE("render says how many pixels have no certificate", "[commands][certifi
 }
 
 TEST_CASE("no pixel of a shipped scene is without a certificate", "[layers][certificate]") {
-  const bool soak = std::getenv("RONDURE_SOAK") != nullptr;
+  const bool soak = soak_part() > 0.0;
   std::size_t pixels = 0, hits = 0, unresolved = 0, scenes = 0, by_means[5] = {};
   std::string failed;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder() + "/scenes")) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
@@ -16,6 +15,7 @@
 #include "tests/catch.h"
 #include "tests/normals/subject_quadrics.h"
 #include "tests/render/staged_scene.h"
+#include "tests/soak.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -63,7 +63,7 @@ dvec3 reference(const std::string& family, bool turned, const Net& net, dvec2 p)
 }
 
 TEST_CASE("the limit normal is right to 1e-12 at and around every singular point", "[normals]") {
-  const int ways = std::getenv("RONDURE_SOAK") ? 128 : 16;
+  const int ways = static_cast<int>(soaked(16, 128));
   std::size_t sites = 0, places = 0;
   WorstCase worst;
   // As they are built, and quadrics in general position too.
@@ -119,7 +119,7 @@ TEST_CASE("the limit normal is right to 1e-12 at and around every singular point
 // three digits: 1.1e-12 rad was once seen there, at one place of 240,000. Of fewer places half as much is
 // asked.
 TEST_CASE("the limit normal takes over from the cross product in time", "[normals]") {
-  const int count = std::getenv("RONDURE_SOAK") ? 200000 : 4000;
+  const int count = static_cast<int>(soaked(4000, 200'000));
   WorstCase worst;
   for (const char* name : {"octahedron_pairs", "hemispheres", "sphere_cap"}) {
     const Subject subject = subjects_named({name}).front();
