@@ -32,7 +32,7 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
   compiled.closed = surface.closed;
   compiled.solver = traced.solver;
   if (surface.ellipsoid) {
-    compiled.ellipsoid.emplace(*surface.ellipsoid);
+    compiled.ellipsoid = on_principal_axes(*surface.ellipsoid);
     const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
     const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     compiled.set.boxes = {Box{-half, half}};

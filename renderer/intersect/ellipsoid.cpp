@@ -60,8 +60,37 @@ Ellipsoid::Ellipsoid(const dmat3& map) : linear(map), inverse(inverse_of(map)) {
   if (skew <= 8.0 * unit_roundoff * r) uniform_radius = extent = r;
 }
 
+Ellipsoid on_principal_axes(const dmat3& map) {
+  Ellipsoid out(map);
+  if (out.uniform_radius > 0.0) return out;
+  using Wide = glm::mat<3, 3, long double>;
+  Wide columns(map), turn(1);
+  // One-sided Jacobi (Hestenes 1958): turns pairs of columns until they are orthogonal, quadratically.
+  bool orthogonal = false;
+  for (int sweep = 0; sweep < 16 && !orthogonal; ++sweep) {
+    orthogonal = true;
+    for (int i = 0; i < 2; ++i)
+      for (int j = i + 1; j < 3; ++j) {
+        const long double aa = glm::dot(columns[i], columns[i]), bb = glm::dot(columns[j], columns[j]),
+                          ab = glm::dot(columns[i], columns[j]);
+        if (std::fabs(ab) <= 0x1p-62L * std::sqrt(aa * bb)) continue;
+        orthogonal = false;
+        const long double angle = 0.5L * std::atan2(2 * ab, aa - bb), c = std::cos(angle),
+                          s = std::sin(angle);
+        for (Wide* m : {&columns, &turn}) {
+          const auto a = (*m)[i], b = (*m)[j];
+          (*m)[i] = c * a + s * b, (*m)[j] = c * b - s * a;
+        }
+      }
+  }
+  Wide rows;
+  for (int k = 0; k < 3; ++k) rows[k] = columns[k] / glm::dot(columns[k], columns[k]);
+  out.linear = dmat3(columns), out.inverse = dmat3(glm::transpose(rows)), out.turn = dmat3(turn);
+  return out;
+}
+
 dvec2 ellipsoid_parameters(const Ellipsoid& surface, const dvec3& point) noexcept {
-  const dvec3 p = surface.inverse * point;
+  const dvec3 p = surface.turn * (surface.inverse * point);
   const double turn = std::atan2(p.y, p.x) / (2.0 * std::numbers::pi);
   return {turn < 0.0 ? turn + 1.0 : turn, std::atan2(std::hypot(p.x, p.y), p.z) / std::numbers::pi};
 }
@@ -73,7 +102,9 @@ int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, Ellipsoid
   const double length2 = glm::dot(direction, direction);
   // From the point nearest to the centre the quadratic has no linear term, and its discriminant no
   // cancellation.
-  const dvec3 nearest = origin - (glm::dot(origin, direction) / length2) * direction;
+  dvec3 nearest = origin - (glm::dot(origin, direction) / length2) * direction;
+  // Where the unit sphere's space is stretched, rounding left it off the middle by as much.
+  if (!uniform) nearest -= (glm::dot(nearest, direction) / length2) * direction;
   const double impact = glm::length(nearest);
   if (!(impact <= 1.0)) return 0;
   const double half = std::sqrt((1.0 - impact) * (1.0 + impact) / length2);

@@ -9,11 +9,17 @@ namespace rondure {
 struct Ellipsoid {
   dmat3 linear{1.0};  // unit sphere to surface, about the frame's zero
   dmat3 inverse{1.0};
+  dmat3 turn{1.0};              // of the unit sphere before that: of its parameters only
   double extent = 1.0;          // largest semi-axis
   double uniform_radius = 0.0;  // the radius when `linear` is a scaled rotation, else 0
 
   explicit Ellipsoid(const dmat3& map);  // not too flat
 };
+
+// The same ellipsoid as a map of orthogonal columns, after a turn: the rounding of the inverse's entries then
+// moves each coordinate by as much as the semi-axis is short, and a point in space by roundoff, however flat
+// it is.
+Ellipsoid on_principal_axes(const dmat3& map);
 
 // Semi-axes in a greater ratio are too many for the closed form: in the unit sphere's space rounding moves a
 // ray by roundoff times the ratio, and its outline by the square of that, relative to the longest axis.

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/intersect/mapped.h"
@@ -56,27 +55,4 @@ TEST_CASE("The error that a hit tells of its t bounds it, far from the frame's z
   CHECK(t.failures() == 0);
   CHECK(unknown == 0);
   CHECK(hits > rays);
-}
-
-// Within the flattest that is allowed, where rounding moves the ray most.
-TEST_CASE("A flat ellipsoid keeps its outline", "[hits]") {
-  Surface flat;
-  flat.ellipsoid = dmat3(1.0);
-  (*flat.ellipsoid)[2][2] = 2.0 / flattest_ellipsoid;
-  REQUIRE(!is_too_flat(*flat.ellipsoid));
-  const Tracer tracer({{flat, Solver::newton}});
-  long lost = 0, invented = 0;
-  std::mt19937_64 random(8);
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (int k = 0; k < 10'000; ++k) {
-    const double turn = 6.3 * part(random), beside = std::pow(10.0, -1.0 - 13.0 * part(random));
-    const auto hits = [&](double radius) {
-      const dvec3 origin(radius * std::cos(turn), radius * std::sin(turn), -1.0 - part(random));
-      return tracer.all({origin, dvec3(0.0, 0.0, 1.0)}).size();
-    };
-    lost += hits(1.0 - beside) != 2, invented += hits(1.0 + beside) != 0;
-  }
-  INFO(lost << " lost, " << invented << " invented of 10000 each");
-  CHECK(lost == 0);
-  CHECK(invented == 0);
 }
