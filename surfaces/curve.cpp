@@ -58,7 +58,7 @@ Surface build(Params& params) {
     tubes.push_back(std::move(tube));
     pieces.push_back(piece);
   }
-  if (tubes.empty()) params.fail("the curve is a single point");
+  if (tubes.empty()) params.fail("the curve is a single point, beside the radius of its tube at least");
   add_guides(curve.polygon, surface);
   for (std::size_t k = 0; k < tubes.size(); ++k) {
     const std::size_t next = (k + 1) % tubes.size();

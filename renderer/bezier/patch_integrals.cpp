@@ -182,7 +182,12 @@ std::vector<Piece> pieces_of(std::unique_ptr<IntegrationCell> whole, const Gauss
   const auto nodes = static_cast<std::size_t>(in_u.count * in_v.count);
   std::size_t next_look = std::clamp<std::size_t>(256 * 13 * 13 / nodes, 16, 256);
   double last = std::numeric_limits<double>::infinity();
-  while (static_cast<int>(heap.size()) < goal.most_cells && total() > 1.0) {
+  // All the work on a patch is at most forty times that on as many pieces of degree 4.
+  const auto coefficients = static_cast<std::size_t>((in_u.degree + 1) * (in_v.degree + 1));
+  const std::size_t affordable = std::max<std::size_t>(
+      16, static_cast<std::size_t>(goal.most_cells) * 40 * (13 * 13 * 5 * 5) / (nodes * coefficients));
+  const std::size_t most = std::min(static_cast<std::size_t>(goal.most_cells), affordable);
+  while (heap.size() < most && total() > 1.0) {
     if (heap.size() >= next_look) {
       const double now = total();
       if (std::isfinite(last) && now > 0.5 * last) break;

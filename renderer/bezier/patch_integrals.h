@@ -18,7 +18,8 @@ struct PatchIntegrals {
 struct IntegralGoal {
   double error = 0.0;     // of an area, in units of extent^2, of a volume in extent^3, ...
   double extent = 1.0;    // a length: how far the surface reaches from the point
-  int most_cells = 4000;  // the patch is subdivided no further; the errors then are what they are
+  int most_cells = 4000;  // the patch is subdivided no further, beyond degree 6 earlier; the errors then are
+                          // what they are
 };
 
 PatchIntegrals integrate_patch(const Net& net, const dvec3& about, const IntegralGoal& goal);

@@ -142,7 +142,8 @@ bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
   }
   if (present < required_)
     fail(present,
-         fmt::format("expected {} columns ({}), found {}", required_, fmt::join(columns_, ","), present));
+         fmt::format("expected {} columns{} ({}), found {}", required_,
+                     required_ < columns_.size() ? " at least" : "", fmt::join(columns_, ","), present));
   return true;
 }
 

@@ -4,12 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 
 #include "renderer/commands/commands.h"
 #include "renderer/commands/distinct_paths.h"
@@ -107,6 +110,16 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
   } while (film.samples < target);
 }
 
+// A name that promises another format of pictures than the one that is written is a mistake.
+void refuse_other_format(const std::string& path, std::string_view written, const char* advice) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const std::string_view known :
+       {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".ppm", ".bmp", ".tga"})
+    if (ending == known && known != written) throw std::runtime_error(fmt::format("{}: {}", path, advice));
+}
+
 void note(const RenderCommand& options, const std::string& text) {
   if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);  // fmt::print throws where nobody listens
 }
@@ -134,6 +147,8 @@ void run_render(const Registry& registry, RenderCommand options) {
   if (!options.png.empty()) outputs.push_back({"the preview", options.png});
   if (options.resume) outputs.push_back({"the state to resume from", resume_path(options.output)});
   refuse_equal_paths(input_paths(scene), outputs);
+  refuse_other_format(options.output, ".exr", "-o writes OpenEXR; for a PNG there is --png");
+  refuse_other_format(options.png, ".png", "--png writes PNG; for OpenEXR there is -o");
   Film film = make_film(scene, settings);
   check_writable(options.output);
   if (!options.png.empty()) {

@@ -61,7 +61,7 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 27;
 constexpr int most_channels = 64;
 
 bool too_large(int width, int height, int channels) {
-  if (width <= 0 || height <= 0 || channels <= 0 || channels > most_channels) return true;
+  if (channels > most_channels) return true;
   const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   return pixels > most_pixels / static_cast<std::uint64_t>(std::max(1, channels / 4));
 }
@@ -83,6 +83,7 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
   if (spec.deep || spec.depth > 1) return fail(report, "it is no flat picture");
   for (const auto& [width, height] :
        {std::pair(spec.width, spec.height), std::pair(spec.full_width, spec.full_height)}) {
+    if (width <= 0 || height <= 0 || channels <= 0) return fail(report, "it claims to have no pixels");
     if (too_large(width, height, channels)) {
       return fail(report, "it claims " + std::to_string(width) + " x " + std::to_string(height) +
                               " pixels of " + std::to_string(channels) + " channels; up to " +
@@ -95,7 +96,8 @@ bool read(const char* path, rondure::Image& image, const rondure::ImageReport* r
   std::vector<float> all(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                          stride);
   if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, all.data())) {
-    return fail(report, input->geterror());
+    const std::string why = input->geterror();
+    return fail(report, why.empty() ? "it is damaged or cut short" : why);
   }
   // The file's pixels lie anywhere in the picture, or beyond it; where there are none it is black.
   image.width = spec.full_width;
@@ -154,6 +156,8 @@ extern "C" bool rondure_read_image(const char* path, rondure::Image* image,
                                    const rondure::ImageReport* report) {
   try {
     return read(path, *image, report);
+  } catch (const std::bad_alloc&) {
+    return fail(report, "there is not enough memory for it");
   } catch (const std::exception& e) {
     return fail(report, e.what());
   }

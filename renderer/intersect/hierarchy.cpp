@@ -17,7 +17,8 @@ Hierarchy::Hierarchy(const dvec3& center, std::vector<Box> boxes, std::vector<Le
                      EmbreeScene::Visitor visitor)
     : center_(center) {
   for (const Box& box : boxes) {
-    radius_ = std::max(radius_, glm::length(glm::max(glm::abs(box.low), glm::abs(box.high))));
+    const double reach = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
+    radius_ = std::max(radius_, std::isnan(reach) ? INFINITY : reach);  // of a box that overflowed
   }
   if (!(radius_ >= smallest_scene && radius_ <= largest_scene))
     throw std::runtime_error(fmt::format("the scene is too {}: its radius must be between {:g} and {:g}",

@@ -31,6 +31,8 @@ Environment read_environment(const std::string& file, std::size_t light) {
     return Environment(read_image(file));
   } catch (const std::runtime_error& error) {
     throw LightError(light, error.what());
+  } catch (const std::bad_alloc&) {
+    throw LightError(light, file + ": there is not enough memory for the image");
   }
 }
 

@@ -218,6 +218,8 @@ TEST_CASE("render refuses to write over what the scene reads, and to standard ou
   CHECK(error_of({"-o", "-"}) ==
         "rondure: error: a picture does not go to standard output; name a file, or ./-\n");
   CHECK(error_of({"-o", ""}).find("names no file") != std::string::npos);
+  CHECK(error_of({"-o", "a.JPG"}) == "rondure: error: a.JPG: -o writes OpenEXR; for a PNG there is --png\n");
+  CHECK(error_of({"--png", "a.exr"}) == "rondure: error: a.exr: --png writes PNG; for OpenEXR there is -o\n");
   CHECK(read_text_file(folder + "/net.json") == net);
 }
 

@@ -10,6 +10,7 @@ namespace rondure::oracle {
 namespace {
 
 constexpr std::size_t piece_limit = 1 << 13;
+constexpr int depth_limit = 1000;  // 10^-39 of a net takes some 400
 
 // A 2x2 matrix times the pair.
 struct Matrix {
@@ -74,9 +75,10 @@ class Search {
     return true;
   }
 
-  // `asked`: whether grazes were looked for in a piece that contains this one.
-  void divide(const Piece& piece, bool asked) {
-    if (++out_.pieces > piece_limit) out_.exhausted = true;
+  // `asked`: whether grazes were looked for in a piece that contains this one. `depth`: halvings so far; a
+  // ray inside a flat patch has a root everywhere, and no end of them.
+  void divide(const Piece& piece, bool asked, int depth = 0) {
+    if (++out_.pieces > piece_limit || depth > depth_limit) out_.exhausted = true;
     if (out_.exhausted) return;
     const Real wide = std::max(size_of(piece.along_a), size_of(piece.along_b));
     Real largest = 0;
@@ -105,7 +107,7 @@ class Search {
       if (const Real change = piece.f.change(k); change > most) most = change, edge = k;
     const auto halves = piece.f.halves(edge);
     for (int k = 0; k < 2; ++k)
-      divide(half(piece, halves[static_cast<std::size_t>(k)], edge, k), asked || small);
+      divide(half(piece, halves[static_cast<std::size_t>(k)], edge, k), asked || small, depth + 1);
   }
 
   // `second`: the half at the edge's end.

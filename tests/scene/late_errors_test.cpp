@@ -56,6 +56,8 @@ TEST_CASE("objects that are too large together are shown at their list", "[scene
         "test.json:2:14: the scene is too large: its radius must be between 1e-60 and 1e+60\n"
         "  2 |   \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n"
         "    |              ^");
+  CHECK(complaint(R"({ "objects": [ { "type": "sphere", "radius": 1e308 } ] })").find("is too large:") !=
+        std::string::npos);
 }
 
 TEST_CASE("a fault set on the command line is named without a place", "[scene]") {

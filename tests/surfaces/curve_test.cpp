@@ -170,7 +170,7 @@ TEST_CASE("what is wrong with a curve is said", "[surfaces]") {
         "the curve reaches infinity, or has no point, where its weight is zero");
   CHECK(says(R"("preimage": [[0,0,0,1],[0,0,0,-1]])") ==
         "the four coordinates of the preimage vanish together somewhere on the curve");
-  CHECK(says(R"("net": [[1,0,0,1],[2,0,0,2]])") == "the object: the curve is a single point");
+  CHECK(says(R"("net": [[1,0,0,1],[2,0,0,2]])") == "the object: the curve is a single point, beside the radius of its tube at least");
   CHECK(says(R"("net": [[1,0,0,1],[2,0,0,1]], "degree": 2)") == "degree 2 needs 3 control points at least");
   CHECK(says(R"("net": [[1,0,0,1],[2,0,0,1]], "degree": 1, "knots": [0,0,1])") ==
         "2 control points of degree 1 need 4 knots, not 3");
