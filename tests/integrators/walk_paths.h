@@ -1,12 +1,11 @@
 // Many paths over all threads, and how many there are to be.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
+#include <algorithm>
 #include <cstdint>
 
 #include "tests/soak.h"
+#include "tests/tallied.h"
 
 namespace rondure {
 
@@ -21,13 +20,10 @@ inline double wanted_paths(double usual) {
 // walk.walk(seed, k, tally) for every k below `paths`, in parts of `grain`; the tallies merged.
 template <class Tally, class Walk>
 Tally walk_paths(const Walk& walk, std::uint64_t seed, std::uint32_t paths, std::uint32_t grain) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::uint32_t>(0, paths, grain), Tally{},
-      [&](const tbb::blocked_range<std::uint32_t>& range, Tally part) {
-        for (std::uint32_t k = range.begin(); k < range.end(); ++k) walk.walk(seed, k, part);
-        return part;
-      },
-      [](Tally a, const Tally& b) { return a.merge(b), a; });
+  return tallied<Tally>((paths + grain - 1) / grain, [&](std::size_t part, Tally& tally) {
+    const auto first = static_cast<std::uint32_t>(part) * grain, end = std::min(first + grain, paths);
+    for (std::uint32_t k = first; k < end; ++k) walk.walk(seed, k, tally);
+  });
 }
 
 }  // namespace rondure

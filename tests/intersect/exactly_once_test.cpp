@@ -2,8 +2,6 @@
 // inside an odd number, and every crossing is the oracle's.
 
 #include <fmt/core.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <array>
 
@@ -14,6 +12,7 @@
 #include "tests/intersect/sphere_reference.h"
 #include "tests/intersect/verdict.h"
 #include "tests/soak.h"
+#include "tests/tallied.h"
 
 using namespace rondure;
 
@@ -138,20 +137,15 @@ bool quick(const ClosedModel& model, RayClass which) {
 
 Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint64_t seed) {
   const Tracer tracer({{model.surface, solver}});
-  return tbb::parallel_reduce(
-      tbb::blocked_range<long>(0, std::max(1L, rays / block), 1), Tally{},
-      [&](const tbb::blocked_range<long>& range, Tally tally) {
-        for (long b = range.begin(); b < range.end(); ++b) {
-          std::mt19937_64 random(seed * 1'000'003u + static_cast<std::uint64_t>(b));
-          for (long k = 0; k < block; ++k) {
-            const auto which = static_cast<RayClass>(k % static_cast<long>(classes));
-            if (b % rare == 0 || quick(model, which))
-              check(model, tracer, which, b * block + k, random, tally);
-          }
-        }
-        return tally;
-      },
-      [](Tally a, const Tally& b) { return a.merge(b), a; });
+  const auto blocks = static_cast<std::size_t>(std::max(1L, rays / block));
+  return tallied<Tally>(blocks, [&](std::size_t index, Tally& tally) {
+    const auto b = static_cast<long>(index);
+    std::mt19937_64 random(seed * 1'000'003u + index);
+    for (long k = 0; k < block; ++k) {
+      const auto which = static_cast<RayClass>(k % static_cast<long>(classes));
+      if (b % rare == 0 || quick(model, which)) check(model, tracer, which, b * block + k, random, tally);
+    }
+  });
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -1,8 +1,6 @@
 // Every exact family against the analytic sphere: which rays hit, how often, where.
 
 #include <fmt/core.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <random>
 
@@ -16,6 +14,7 @@
 #include "tests/intersect/sphere_reference.h"
 #include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
+#include "tests/tallied.h"
 #include "tests/worst_case.h"
 
 using namespace rondure;
@@ -203,23 +202,17 @@ constexpr long block = 2000;  // rays of one seed
 Tally check_case(const Case& c, Load load) {
   const Tracer tracer({{c.surface, c.solver}});
   const long random_blocks = load.random / block, blocks = random_blocks + load.aimed / block;
-  return tbb::parallel_reduce(
-      tbb::blocked_range<long>(0, blocks, 1), Tally{},
-      [&](const tbb::blocked_range<long>& range, Tally tally) {
-        for (long b = range.begin(); b < range.end(); ++b) {
-          std::mt19937_64 random(static_cast<std::uint64_t>(b) + 1);
-          const bool aimed = b >= random_blocks;
-          const std::size_t given_up = thread_counts().search.exhausted;
-          for (long k = 0; k < block; ++k) {
-            const long kind =
-                aimed ? random_kinds + k % (static_cast<long>(Kind::count) - random_kinds) : k % random_kinds;
-            check_ray(c, tracer, static_cast<Kind>(kind), aimed || k % 8 == 0, random, tally);
-          }
-          tally.exhausted += thread_counts().search.exhausted - given_up;
-        }
-        return tally;
-      },
-      [](Tally a, const Tally& b) { return a.merge(b), a; });
+  return tallied<Tally>(static_cast<std::size_t>(blocks), [&](std::size_t b, Tally& tally) {
+    std::mt19937_64 random(b + 1);
+    const bool aimed = static_cast<long>(b) >= random_blocks;
+    const std::size_t given_up = thread_counts().search.exhausted;
+    for (long k = 0; k < block; ++k) {
+      const long kind =
+          aimed ? random_kinds + k % (static_cast<long>(Kind::count) - random_kinds) : k % random_kinds;
+      check_ray(c, tracer, static_cast<Kind>(kind), aimed || k % 8 == 0, random, tally);
+    }
+    tally.exhausted += thread_counts().search.exhausted - given_up;
+  });
 }
 
 void require_clean(const Tally& tally, const std::string& what) {
