@@ -37,7 +37,7 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
     const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     compiled.set.boxes = {Box{-half, half}};
   } else {
-    compiled.spheres = std::move(found.spheres);
+    compiled.spheres = found.spheres;
     std::vector<bool> without(surface.patches.size()), radial(surface.patches.size());
     for (std::size_t k = 0; k < surface.patches.size(); ++k) {
       radial[k] = traced.solver == Solver::radial && has_radial_form(surface.patches[k]);

@@ -32,10 +32,20 @@ struct QueryContext {
 struct GeometryData {
   Handover there, back;           // around the commit
   const std::vector<Box>* boxes;  // the caller's, and read during the commit only
-  std::vector<LeafName> names;
+  std::vector<LeafName> names;  // none where leaf k is surface k, a sphere: one place in memory less to go to
   double pad;
   EmbreeScene::Visitor visitor;
+
+  LeafName name_of(unsigned leaf) const {
+    return names.empty() ? LeafName{leaf, LeafName::sphere} : names[leaf];
+  }
 };
+
+bool are_all_spheres(const std::vector<LeafName>& names) {
+  for (unsigned k = 0; k < names.size(); ++k)
+    if (names[k].surface != k || names[k].leaf != LeafName::sphere) return false;
+  return true;
+}
 
 float down(double x) {
   return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
@@ -57,7 +67,7 @@ void intersect_leaf(const RTCIntersectFunctionNArguments* args) noexcept {
   if (args->valid[0] == 0) return;
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
   void* query = reinterpret_cast<QueryContext*>(args->context)->query;
-  const LeafName& name = data.names[args->primID];
+  const LeafName name = data.name_of(args->primID);
   data.visitor(query, name.surface, name.leaf,
                RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
 }
@@ -67,7 +77,7 @@ void occlude_leaf(const RTCOccludedFunctionNArguments* args) noexcept {
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
   void* query = reinterpret_cast<QueryContext*>(args->context)->query;
   float& far = RTCRayN_tfar(args->ray, args->N, 0);
-  const LeafName& name = data.names[args->primID];
+  const LeafName name = data.name_of(args->primID);
   if (data.visitor(query, name.surface, name.leaf, far)) far = -std::numeric_limits<float>::infinity();
 }
 
@@ -136,6 +146,7 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   self.memory.there.give();
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.memory);
   self.scene = rtcNewScene(self.device);
+  if (are_all_spheres(names)) names = {};
   self.data = {{}, {}, &boxes, std::move(names), 0x1p-19 * radius, visitor};
   RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));

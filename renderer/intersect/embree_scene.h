@@ -18,9 +18,10 @@
 
 namespace rondure {
 
-// A leaf of a surface; `whole`: all of the surface, which has a hierarchy of its own.
+// A leaf of a surface. `whole`: all of the surface, which has a hierarchy of its own; `sphere`: all of it,
+// being a sphere.
 struct LeafName {
-  static constexpr unsigned whole = ~0u;
+  static constexpr unsigned whole = ~0u, sphere = ~1u;
   unsigned surface, leaf;
 };
 

@@ -82,10 +82,10 @@ std::vector<Draft> drafts_of(const std::vector<Net>& nets, std::size_t surface) 
     sphere.error = ellipsoid_error(sphere.ellipsoid) + fit.off * sphere.ellipsoid.extent;
     // The square of its radius must be a number, too.
     if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
-      sphere.inverse_radius = 1.0 / r;
+      sphere.radius = r, sphere.inverse_radius = 1.0 / r;
     sphere.first = static_cast<std::int32_t>(draft.which.front());
     if (draft.which.back() - draft.which.front() + 1 != draft.which.size())
-      sphere.names.assign(draft.which.begin(), draft.which.end());
+      sphere.named = true, sphere.names.assign(draft.which.begin(), draft.which.end());
     draft.rounding = 1.0 + glm::length(sphere.ellipsoid.inverse * sphere.center);
     draft.key = key_of(draft);
     out.push_back(std::move(draft));
@@ -121,7 +121,7 @@ bool follow(const Model& model, Draft& draft) {
 
 }  // namespace
 
-std::vector<SurfaceSpheres> patched_spheres(const std::vector<const std::vector<Net>*>& surfaces) {
+SceneSpheres patched_spheres(const std::vector<const std::vector<Net>*>& surfaces) {
   std::vector<std::vector<Draft>> found(surfaces.size());
   parallel_for(surfaces.size(), [&](std::size_t k) {
     if (surfaces[k]) found[k] = drafts_of(*surfaces[k], k);
@@ -153,15 +153,19 @@ std::vector<SurfaceSpheres> patched_spheres(const std::vector<const std::vector<
     if (const Model own = model_of(draft, cells); own.patches) set_patches(own.patches, draft.sphere);
   });
 
-  std::vector<SurfaceSpheres> out(surfaces.size());
+  SceneSpheres out;
+  out.spheres.reserve(drafts.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const std::size_t first = out.spheres.size();
+    SurfaceSpheres& surface = out.surfaces.emplace_back();
     if (!surfaces[k]) continue;
-    out[k].rest.assign(surfaces[k]->size(), true);
+    surface.rest.assign(surfaces[k]->size(), true);
     for (Draft& draft : found[k]) {
       if (!draft.sphere.patches) continue;
-      for (const std::size_t patch : draft.which) out[k].rest[patch] = false;
-      out[k].spheres.push_back(std::move(draft.sphere));
+      for (const std::size_t patch : draft.which) surface.rest[patch] = false;
+      out.spheres.push_back(std::move(draft.sphere));
     }
+    surface.spheres = {out.spheres.data() + first, out.spheres.size() - first};
   }
   return out;
 }

@@ -30,12 +30,12 @@ Contact contact_with_start(const Query& q, const CompiledSurface& surface, const
 template <class Normal>
 bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, const Normal& normal,
             double& t) {
-  const dvec3& frame = q.origins[surface];
+  const dvec3& frame = q.surfaces[surface].origin;
   if (accept(*q.ray, local, static_cast<int>(surface), frame, c, t)) return true;
   const int start = q.ray->start.surface;
-  const CompiledSurface& met = *q.compiled[surface];
+  const CompiledSurface& met = *q.surfaces[surface].compiled;
   if (start < 0 || start == static_cast<int>(surface) || !met.closed) return false;
-  const CompiledSurface& left = *q.compiled[start];
+  const CompiledSurface& left = *q.surfaces[start].compiled;
   if (!left.closed) return false;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
   const auto contact = [&] { return contact_with_start(q, met, left, normal()); };
@@ -50,7 +50,7 @@ template <class Normal>
 Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
            const Crossing& c, float& far) {
   Hit hit;
-  const dvec3& frame = q.origins[surface];
+  const dvec3& frame = q.surfaces[surface].origin;
   if (!is_hit(q, surface, q.local, c, normal, hit.t)) return Taken::no;
   if (q.mode == Mode::any) return Taken::settled;
   hit.t_error = c.s_error * q.local.scale;
@@ -96,11 +96,11 @@ bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, flo
 // The two roots, entering first. The parameters are asked for only where a hit is the closest so far, or as
 // close: which of those counts does not depend on the order.
 bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float& far) {
-  const dvec3& frame = q.origins[surface];
+  const dvec3& frame = q.surfaces[surface].origin;
   SphereRoots roots;
   LocalRay local = q.local;
   if (!meet_sphere(sphere, q.ray->origin, frame, local, roots)) return false;
-  const std::vector<Net>& nets = *q.compiled[surface]->nets;
+  const std::vector<Net>& nets = *q.surfaces[surface].compiled->nets;
   const Ellipsoid& e = sphere.ellipsoid;
   const double error = sphere.error, grazing = std::sqrt(2.0 * error * e.extent);
   for (const int side : {-1, 1}) {
@@ -156,10 +156,33 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
   return false;
 }
 
+// A surface that is one sphere: by the short way where that tells.
+bool visit_lone_sphere(Query& q, unsigned surface, float& far) {
+  const PatchedSphere& sphere = *q.surfaces[surface].sphere;
+  // What a hit needs of it, if there are so many that it is far away in memory.
+  __builtin_prefetch(reinterpret_cast<const char*>(&sphere) + 64);
+  __builtin_prefetch(reinterpret_cast<const char*>(&sphere) + 128);
+  const SphereTarget target = target_at(sphere, q.surfaces[surface].origin, static_cast<int>(surface));
+  if (q.mode == Mode::any) {
+    const RayAnswer answer = sphere_occludes(target, *q.ray);
+    if (answer != RayAnswer::unknown) return answer == RayAnswer::hit;
+  }
+  if (q.mode == Mode::closest) {
+    Hit hit;
+    const RayAnswer answer = closest_on_sphere(target, *q.ray, q.best ? q.best.t : INFINITY, hit);
+    if (answer == RayAnswer::hit && (!q.best || nearer(hit, q.best))) {
+      q.best = hit, q.needs_normal = false;
+      far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
+    }
+    if (answer != RayAnswer::unknown) return false;
+  }
+  return visit_sphere(q, surface, sphere, far);
+}
+
 bool localise(Query& q, unsigned surface) {
   if (q.local_surface != surface && q.local_surface != Query::every_surface) {
     q.local_surface = surface;
-    q.local_valid = set_base(q.ray->origin, q.origins[surface], q.local);
+    q.local_valid = set_base(q.ray->origin, q.surfaces[surface].origin, q.local);
     q.has_distances = false;
   }
   return q.local_valid;
@@ -168,7 +191,7 @@ bool localise(Query& q, unsigned surface) {
 // A surface that shares its leaves with others, in its own frame.
 bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
   if (!localise(q, surface)) return false;
-  const Hierarchy& hierarchy = *q.compiled[surface]->hierarchy;
+  const Hierarchy& hierarchy = *q.surfaces[surface].compiled->hierarchy;
   const Entry outer = q.entry;
   const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max;
   if (!hierarchy.enter(q.local, q.ray->t_min, t_max, q.entry)) return false;
@@ -199,7 +222,7 @@ void make_planes(Query& q) {
 }
 
 bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
-  const CompiledSurface& compiled = *q.compiled[surface];
+  const CompiledSurface& compiled = *q.surfaces[surface].compiled;
   if (!q.has_distances) make_planes(q);
   const Leaf& leaf = compiled.set.leaves[leaf_index];
   const Net& net = (*compiled.nets)[static_cast<std::size_t>(leaf.patch)];
@@ -236,7 +259,7 @@ bool nearer(const Hit& a, const Hit& b) {
 }
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
-  const CompiledSurface& compiled = *q.compiled[surface];
+  const CompiledSurface& compiled = *q.surfaces[surface].compiled;
   if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves && !compiled.ellipsoid)
     return visit_sphere(q, surface, compiled.spheres[leaf - leaves], far);
   if (!localise(q, surface)) return false;
@@ -251,22 +274,23 @@ bool visit_shared_leaf(void* pointer, unsigned, unsigned leaf, float& far) noexc
 
 bool visit_by_name(void* pointer, unsigned surface, unsigned leaf, float& far) noexcept {
   Query& q = *static_cast<Query*>(pointer);
+  if (leaf == LeafName::sphere) return visit_lone_sphere(q, surface, far);
   return leaf == LeafName::whole ? visit_instance(q, surface, far) : visit_leaf(q, surface, leaf, far);
 }
 
 void finish(const Query& q, Hit& hit) {
   const auto index = static_cast<std::size_t>(hit.surface);
-  const CompiledSurface& surface = *q.compiled[index];
+  const CompiledSurface& surface = *q.surfaces[index].compiled;
   if (!surface.ellipsoid) return;
-  const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - q.origins[index]);
+  const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - q.surfaces[index].origin);
   hit.u = p.x, hit.v = p.y;
 }
 
 void finish(Query& q) {
   finish(q, q.best);
   if (!q.needs_normal) return;
-  const Net& net =
-      (*q.compiled[static_cast<std::size_t>(q.best.surface)]->nets)[static_cast<std::size_t>(q.best.patch)];
+  const Net& net = (*q.surfaces[static_cast<std::size_t>(q.best.surface)]
+                         .compiled->nets)[static_cast<std::size_t>(q.best.patch)];
   q.best.normal = unit_normal(net, q.best.u, q.best.v, q.best_first);
 }
 

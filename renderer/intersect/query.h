@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/intersect/ellipsoid.h"
@@ -11,6 +12,7 @@
 #include "renderer/intersect/patched_spheres.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/intersect/solve_leaf.h"
+#include "renderer/intersect/sphere_ray.h"
 #include "renderer/intersect/tracer.h"
 
 namespace rondure {
@@ -20,8 +22,8 @@ struct CompiledSurface {
   LeafSet set;  // one box and no leaf for an analytic surface
   Box bounds;   // of all leaves
   bool closed = false;
-  std::vector<RadialPiece> radial;     // of the last leaves
-  std::vector<PatchedSphere> spheres;  // of the boxes after all leaves
+  std::vector<RadialPiece> radial;         // of the last leaves
+  std::span<const PatchedSphere> spheres;  // of the boxes after all leaves
   std::optional<Ellipsoid> ellipsoid;
   std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
   const std::vector<Net>* nets = nullptr;
@@ -32,6 +34,13 @@ struct CompiledSurface {
 // its patches lie on, if that is asked for.
 CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpheres found);
 
+// One that may share what is compiled with others.
+struct PlacedSurface {
+  dvec3 origin{0.0};
+  const PatchedSphere* sphere = nullptr;  // where that, and no other ellipsoid, is all
+  const CompiledSurface* compiled = nullptr;
+};
+
 // Of the leaves of surfaces that share them; none of a single leaf.
 std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled);
 
@@ -39,8 +48,7 @@ enum class Mode { closest, any, all };
 
 // Lives on the stack of the query.
 struct Query {
-  const CompiledSurface* const* compiled;  // one a surface
-  const dvec3* origins;                    // one a surface
+  const PlacedSurface* surfaces;
   const Ray* ray;
   Mode mode;
   Entry entry{};          // into the hierarchy that is being traversed

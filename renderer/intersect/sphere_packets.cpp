@@ -190,7 +190,7 @@ HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group
     outward[k] = held.patches[k]->outward;
   }
   const dvec3 &frame = target.frame, &center = target.sphere->center;
-  const V radius = lift(target.sphere->ellipsoid.uniform_radius), side = hn::Load(d, outward);
+  const V radius = lift(target.radius), side = hn::Load(d, outward);
   V numbers[11] = {g.t, g.t_error, hn::BitCast(d, hn::Load(di, names)), u, v};
   for (int k = 0; k < 3; ++k) {
     numbers[5 + k] = lift(frame[k]) + (lift(center[k]) + radius * g.point[k]);
@@ -261,7 +261,7 @@ HWY_EXPORT(closest_wide);
 
 void closest_on_sphere(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        unsigned char* done) noexcept {
-  if (!(target.inverse_radius > 0.0) || target.sphere->turned) {
+  if (target.sphere->turned) {
     for (std::size_t k = 0; k < count; ++k) done[k] = 0;
     return;
   }

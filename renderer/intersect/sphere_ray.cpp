@@ -40,8 +40,9 @@ struct Meeting {
 
 static_assert(offsetof(Ray, direction) == 3 * sizeof(double) && offsetof(Ray, t_min) == 6 * sizeof(double));
 
-HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, Meeting& out) {
+HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, double farthest, Meeting& out) {
   const double* numbers = &ray.origin.x;
+  // Of what is fourth nothing is used.
   const Triple o = Triple::of_four(numbers), d = Triple::of_four(numbers + 3),
                center = Triple::of_four(&target.center.x), center_low = Triple::of_four(&target.center_low.x);
   const double length2 = dot(d, d);
@@ -69,8 +70,11 @@ HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, Meeting& o
   if (t_enter == t_leave) return RayAnswer::unknown;
   const bool enters = t_enter >= ray.t_min && t_enter <= ray.t_max,
              leaves = t_leave >= ray.t_min && t_leave <= ray.t_max;
+  // Where a ray has left another surface, what is just behind it may yet be met.
+  if (!enters && ray.start.surface >= 0) return RayAnswer::unknown;
   if (!enters && !leaves) return RayAnswer::miss;
   out.t = enters ? t_enter : t_leave;
+  if (out.t > farthest) return RayAnswer::miss;
 
   // As sphere_point.
   const Triple shrink(target.inverse_radius);
@@ -97,24 +101,23 @@ HWY_INLINE std::int32_t place(const PatchedSphere& sphere, const Meeting& at, dv
   return cell.owner;
 }
 
-RayAnswer closest(const SphereTarget& target, const Ray& ray, Hit& hit) {
+RayAnswer closest(const SphereTarget& target, const Ray& ray, double farthest, Hit& hit) {
   Meeting at;
-  if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
+  if (const RayAnswer answer = meet(target, ray, farthest, at); answer != RayAnswer::hit) return answer;
   const PatchedSphere& sphere = *target.sphere;
   dvec2 p;
   const std::int32_t patch = place(sphere, at, p);
   if (patch < 0) return RayAnswer::unknown;
-  const double radius = sphere.ellipsoid.uniform_radius;
   hit.t = at.t, hit.t_error = at.t_error;
   hit.surface = target.surface, hit.patch = sphere.name_of(patch), hit.u = p.x, hit.v = p.y;
-  hit.point = target.frame + (sphere.center + radius * at.point);
+  hit.point = target.frame + (sphere.center + target.radius * at.point);
   hit.normal = sphere.patches->patches[static_cast<std::size_t>(patch)].outward * at.point;
   return RayAnswer::hit;
 }
 
 RayAnswer occludes(const SphereTarget& target, const Ray& ray) {
   Meeting at;
-  if (const RayAnswer answer = meet(target, ray, at); answer != RayAnswer::hit) return answer;
+  if (const RayAnswer answer = meet(target, ray, INFINITY, at); answer != RayAnswer::hit) return answer;
   const SphereCell& cell = target.sphere->patches->cells[at.cell.cell];
   dvec2 p;
   if ((cell.owner >= 0 && cell.others < 0) || place(*target.sphere, at, p) >= 0) return RayAnswer::hit;
@@ -133,24 +136,25 @@ HWY_EXPORT(closest);
 HWY_EXPORT(occludes);
 
 SphereTarget target_at(const PatchedSphere& sphere, const dvec3& frame, int surface) {
-  SphereTarget target{&sphere, surface, frame, dvec4(0.0), dvec4(0.0), 0.0, 0.0, 0.0};
+  SphereTarget target;
+  target.frame = frame, target.sphere = &sphere, target.surface = surface;
   for (int k = 0; k < 3; ++k) {
     const TwoFold sum = two_sum(frame[k], sphere.center[k]);
     target.center[k] = sum.high, target.center_low[k] = sum.low;
   }
-  const double radius = sphere.ellipsoid.uniform_radius;
-  target.radius2 = radius * radius, target.inverse_radius = sphere.inverse_radius;
-  target.stretch = sphere.error * radius;
+  target.radius = sphere.radius;
+  target.radius2 = target.radius * target.radius, target.inverse_radius = sphere.inverse_radius;
+  target.stretch = sphere.error * target.radius;
   return target;
 }
 
-RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, Hit& hit) noexcept {
-  if (!(target.inverse_radius > 0.0) || ray.start.surface == target.surface) return RayAnswer::unknown;
-  return HWY_DYNAMIC_DISPATCH(closest)(target, ray, hit);
+RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, double farthest, Hit& hit) noexcept {
+  if (ray.start.surface == target.surface) return RayAnswer::unknown;
+  return HWY_DYNAMIC_DISPATCH(closest)(target, ray, farthest, hit);
 }
 
 RayAnswer sphere_occludes(const SphereTarget& target, const Ray& ray) noexcept {
-  if (!(target.inverse_radius > 0.0) || ray.start.surface == target.surface) return RayAnswer::unknown;
+  if (ray.start.surface == target.surface) return RayAnswer::unknown;
   return HWY_DYNAMIC_DISPATCH(occludes)(target, ray);
 }
 

@@ -8,23 +8,27 @@
 
 namespace rondure {
 
-// A sphere of patches (no other ellipsoid) in its place.
+// A sphere of patches in its place.
 struct SphereTarget {
-  const PatchedSphere* sphere;
-  int surface;  // its index
-  dvec3 frame;  // of the surface
-  // The sphere's centre in the world: the exact sum of these. Their last components are zero.
-  dvec4 center{0.0}, center_low{0.0};
-  double radius2, inverse_radius;
-  double stretch;  // error of a point, times the radius
+  // The sphere's centre in the world: the exact sum of these.
+  dvec3 center{0.0};
+  double radius2 = 0.0;
+  dvec3 center_low{0.0};
+  double inverse_radius = 0.0;
+  dvec3 frame{0.0};  // of the surface
+  double radius = 0.0;
+  double stretch = 0.0;  // error of a point, times the radius
+  const PatchedSphere* sphere = nullptr;
+  int surface = 0;  // its index
 };
 
+// Of a sphere, no other ellipsoid.
 SphereTarget target_at(const PatchedSphere& sphere, const dvec3& frame, int surface);
 
 enum class RayAnswer { miss, hit, unknown };
 
-// The closest hit; `hit` is set where there is one.
-RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, Hit& hit) noexcept;
+// The closest hit, if its t is not beyond `farthest`; `hit` is set where there is one.
+RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, double farthest, Hit& hit) noexcept;
 // Whether there is one at all.
 RayAnswer sphere_occludes(const SphereTarget& target, const Ray& ray) noexcept;
 

@@ -12,22 +12,23 @@ namespace rondure {
 
 // center + linear . (unit sphere), in the surface's frame, and what of it is there. Ellipsoids whose patches
 // are the same but for a rotation of the unit sphere share what is known of them.
-struct PatchedSphere {
+struct alignas(64) PatchedSphere {
+  // First, and close together, what most rays need: scenes may have many.
   dvec3 center{0.0};
-  double inverse_radius = 0.0;  // of a sphere, whose radius is the ellipsoid's; 0 of others
+  double radius = 0.0, inverse_radius = 0.0;  // of a sphere; 0 of other ellipsoids
   double error = 0.0;    // bound on the distance of a hit from the patch's own, at right angles to the ray
   double outward = 0.0;  // what all patches have in common, as in SpherePatch; 0: nothing
-  bool turned = false;
-  dmat3 turn{1.0};  // from the unit sphere's space to that of the patches, where it is another
-  std::shared_ptr<const SpherePatches> patches;
   // What patch k is called in the surface: first + k, or names[k] where they do not follow one another.
   std::int32_t first = 0;
+  bool turned = false, named = false;
+  std::shared_ptr<const SpherePatches> patches;
+  dmat3 turn{1.0};  // from the unit sphere's space to that of the patches, where it is another
   std::vector<std::int32_t> names;
   Ellipsoid ellipsoid{dmat3(1.0)};
 
   dvec3 to_patches(const dvec3& n) const { return turned ? turn * n : n; }
   std::int32_t name_of(std::int32_t patch) const {
-    return names.empty() ? first + patch : names[static_cast<std::size_t>(patch)];
+    return !named ? first + patch : names[static_cast<std::size_t>(patch)];
   }
 };
 

@@ -18,15 +18,15 @@ namespace rondure {
 
 struct Tracer::Implementation {
   std::vector<TracedSurface> surfaces;
-  std::vector<CompiledSurface> distinct;         // those that are the first of their twins (twins.h)
-  std::vector<const CompiledSurface*> compiled;  // one a surface, among these
-  std::vector<dvec3> origins;
+  std::vector<CompiledSurface> distinct;  // those that are the first of their twins (twins.h)
+  std::vector<PatchedSphere> spheres;     // of all these
+  std::vector<PlacedSurface> placed;      // all, in order
   std::size_t leaf_count = 0;
   std::unique_ptr<Hierarchy> hierarchy;
   bool one_frame = false;  // the surfaces' origins are all at the hierarchy's centre
 
   std::vector<LeafName> few;          // of so few leaves that no hierarchy pays
-  std::optional<SphereTarget> alone;  // where that is all
+  std::optional<SphereTarget> alone;  // where a sphere is all
 
   // Meets every leaf that the ray may hit. True when an occlusion query is settled.
   bool visit(Query& q) const {
@@ -34,7 +34,7 @@ struct Tracer::Implementation {
     if (!few.empty()) {
       float far = INFINITY;
       for (const LeafName& name : few)
-        if (visit_leaf(q, name.surface, name.leaf, far)) return true;
+        if (visit_by_name(&q, name.surface, name.leaf, far)) return true;
       return false;
     }
     if (one_frame) q.local_surface = Query::every_surface, q.local_valid = true;
@@ -58,9 +58,7 @@ struct Tracer::Implementation {
     return q.best;
   }
 
-  Query make_query(const Ray& ray, Mode mode) const {
-    return Query{compiled.data(), origins.data(), &ray, mode};
-  }
+  Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode}; }
 };
 
 namespace {
@@ -94,16 +92,17 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     nets.push_back(traced.solver == Solver::quadric && !traced.surface.ellipsoid ? &traced.surface.patches
                                                                                  : nullptr);
   }
-  std::vector<SurfaceSpheres> spheres = patched_spheres(nets);
+  SceneSpheres found = patched_spheres(nets);
+  self.spheres = std::move(found.spheres);
 
   self.distinct.resize(firsts.size());
-  self.compiled.resize(count);
+  self.placed.resize(count);
   std::vector<std::string> errors(firsts.size());
   parallel_for(firsts.size(), [&](std::size_t k) {
     try {
       CompiledSurface& compiled = self.distinct[k];
-      self.compiled[firsts[k]] = &compiled;
-      compiled = compile(self.surfaces[firsts[k]], depth, std::move(spheres[k]));
+      self.placed[firsts[k]].compiled = &compiled;
+      compiled = compile(self.surfaces[firsts[k]], depth, std::move(found.surfaces[k]));
       if (twin_counts[firsts[k]] > 1) compiled.hierarchy = hierarchy_of(compiled);
     } catch (const std::runtime_error& error) {
       errors[k] = error.what();
@@ -115,32 +114,35 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
 
   Box world;
   for (unsigned k = 0; k < count; ++k) {
-    self.compiled[k] = self.compiled[twins[k]];
-    const dvec3& origin = self.surfaces[k].surface.origin;
-    self.origins.push_back(origin);
-    const Box& bounds = self.compiled[k]->bounds;
-    if (!bounds.empty()) world.add(Box{bounds.low + origin, bounds.high + origin});
-    if (twins[k] == k) self.leaf_count += self.compiled[k]->set.boxes.size();
+    PlacedSurface& placed = self.placed[k];
+    placed.compiled = self.placed[twins[k]].compiled;
+    placed.origin = self.surfaces[k].surface.origin;
+    const CompiledSurface& compiled = *placed.compiled;
+    if (compiled.set.boxes.size() == 1 && compiled.spheres.size() == 1 && compiled.spheres[0].radius > 0.0)
+      placed.sphere = &compiled.spheres[0];
+    if (const Box& bounds = compiled.bounds; !bounds.empty())
+      world.add(Box{bounds.low + placed.origin, bounds.high + placed.origin});
+    if (twins[k] == k) self.leaf_count += compiled.set.boxes.size();
   }
   if (world.empty()) return;
   // A common origin that is in the middle, or nearly, spares each ray a second local form.
   dvec3 center = world.center();
-  const dvec3 common = self.origins.front();
-  const bool all_there =
-      std::all_of(self.origins.begin(), self.origins.end(), [&](const dvec3& o) { return o == common; });
+  const dvec3 common = self.placed.front().origin;
+  const bool all_there = std::all_of(self.placed.begin(), self.placed.end(),
+                                     [&](const PlacedSurface& p) { return p.origin == common; });
   self.one_frame = all_there && glm::distance(common, center) < 0x1p-4 * glm::distance(world.low, world.high);
   if (self.one_frame) center = common;
   std::vector<Box> boxes;
   std::vector<LeafName> names;
   for (unsigned k = 0; k < count; ++k) {
-    const CompiledSurface& compiled = *self.compiled[k];
-    const dvec3 shift = self.origins[k] - center;
+    const CompiledSurface& compiled = *self.placed[k].compiled;
+    const dvec3 shift = self.placed[k].origin - center;
     const auto add = [&](const Box& box, unsigned leaf) {
       boxes.push_back({box.low + shift, box.high + shift});
       names.push_back({k, leaf});
     };
-    if (compiled.hierarchy) {
-      add(compiled.bounds, LeafName::whole);
+    if (compiled.hierarchy || self.placed[k].sphere) {
+      add(compiled.bounds, self.placed[k].sphere ? LeafName::sphere : LeafName::whole);
       continue;
     }
     for (unsigned leaf = 0; leaf < compiled.set.boxes.size(); ++leaf) add(compiled.set.boxes[leaf], leaf);
@@ -148,10 +150,9 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   if (names.size() <= few_leaves && names.front().leaf != LeafName::whole &&
       names.back().leaf != LeafName::whole)
     self.few = names;
-  if (self.few.size() == 1) {
+  if (self.few.size() == 1 && self.few[0].leaf == LeafName::sphere) {
     const unsigned k = self.few[0].surface;
-    if (const CompiledSurface& only = *self.compiled[k]; only.spheres.size() == 1)
-      self.alone = target_at(only.spheres[0], self.origins[k], static_cast<int>(k));
+    self.alone = target_at(*self.placed[k].sphere, self.placed[k].origin, static_cast<int>(k));
   }
   self.hierarchy = std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit_by_name);
 }
@@ -163,7 +164,7 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Hit Tracer::closest(const Ray& ray) const noexcept {
   if (implementation_->alone) {
     Hit hit;
-    if (closest_on_sphere(*implementation_->alone, ray, hit) != RayAnswer::unknown) return hit;
+    if (closest_on_sphere(*implementation_->alone, ray, INFINITY, hit) != RayAnswer::unknown) return hit;
   }
   return implementation_->closest(ray);
 }

@@ -3,6 +3,7 @@
 // how fast scenes are built.
 //
 //   rondure_bench [ROUNDS] [--json FILE]
+//   rondure_bench [ROUNDS] --scale COUNT   scenes of up to so many objects alone
 //   rondure_bench --count ROW        traces that row's incoherent rays once, for
 //   tests/bench/count_instructions
 
@@ -171,6 +172,8 @@ int run(int argc, char** argv) {
   std::string json;
   for (int k = 1; k < argc; ++k) {
     if (std::strcmp(argv[k], "--count") == 0 && k + 1 < argc) return count(argv[k + 1]);
+    if (std::strcmp(argv[k], "--scale") == 0 && k + 1 < argc)
+      return print_scale(rounds, std::atoi(argv[k + 1])), 0;
     if (std::strcmp(argv[k], "--json") == 0 && k + 1 < argc)
       json = argv[++k];
     else
