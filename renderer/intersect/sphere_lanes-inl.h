@@ -40,7 +40,6 @@ HWY_INLINE V fused(D d, V a, V b, V c) {
 #endif
 }
 
-// Eight numbers of each of N rows, as eight vectors, and back: out[i], lane k, is number i of row k.
 template <class D, class V>
 HWY_INLINE void turn(D d, V a, V b, V c, V e, V* out) {  // of four 128-bit blocks each
   const V x = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a),
@@ -73,24 +72,55 @@ HWY_INLINE void turn_square(D d, const V* in, V* out) {  // as many rows as lane
   }
 }
 
+// Four numbers of eight rows: row k and row k + 4 share a vector, in[k]. It is its own inverse.
 template <class D, class V>
+HWY_INLINE void turn_halves(D d, const V* in, V* out) {
+  const V even = hn::InterleaveLower(d, in[0], in[1]), odd = hn::InterleaveUpper(d, in[0], in[1]),
+          next_even = hn::InterleaveLower(d, in[2], in[3]), next_odd = hn::InterleaveUpper(d, in[2], in[3]);
+  out[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(next_even), even);
+  out[1] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(next_odd), odd);
+  out[2] = hn::OddEvenBlocks(next_even, hn::SwapAdjacentBlocks(even));
+  out[3] = hn::OddEvenBlocks(next_odd, hn::SwapAdjacentBlocks(odd));
+}
+
+// `count` numbers of each of as many rows as there are lanes, as that many vectors: out[i], lane k, is number
+// i of row k.
+template <std::size_t count, class D, class V>
 HWY_INLINE void columns_of(D d, const double* const* rows, V* out) {
   constexpr std::size_t N = hn::MaxLanes(D());
-  for (std::size_t first = 0; first < 8; first += N) {
-    V in[N];
-    for (std::size_t k = 0; k < N; ++k) in[k] = hn::LoadU(d, rows[k] + first);
-    turn_square(d, in, out + first);
+  if constexpr (N == 8 && count == 4) {
+    const hn::Half<D> half;
+    V in[4];
+    for (std::size_t k = 0; k < 4; ++k)
+      in[k] = hn::Combine(d, hn::LoadU(half, rows[k + 4]), hn::LoadU(half, rows[k]));
+    turn_halves(d, in, out);
+  } else {
+    for (std::size_t first = 0; first < count; first += N) {
+      V in[N];
+      for (std::size_t k = 0; k < N; ++k) in[k] = hn::LoadU(d, rows[k] + first);
+      turn_square(d, in, out + first);
+    }
   }
 }
 
-// `to[k]` where row k goes, or nullptr.
-template <class D, class V>
+// And back. `to[k]`: where row k goes, or nullptr.
+template <std::size_t count, class D, class V>
 HWY_INLINE void rows_of(D d, const V* columns, double* const* to) {
   constexpr std::size_t N = hn::MaxLanes(D());
-  for (std::size_t first = 0; first < 8; first += N) {
-    V out[N];
-    turn_square(d, columns + first, out);
-    for (std::size_t k = 0; k < N; ++k)
-      if (to[k]) hn::StoreU(out[k], d, to[k] + first);
+  if constexpr (N == 8 && count == 4) {
+    const hn::Half<D> half;
+    V out[4];
+    turn_halves(d, columns, out);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (to[k]) hn::StoreU(hn::LowerHalf(half, out[k]), half, to[k]);
+      if (to[k + 4]) hn::StoreU(hn::UpperHalf(half, out[k]), half, to[k + 4]);
+    }
+  } else {
+    for (std::size_t first = 0; first < count; first += N) {
+      V out[N];
+      turn_square(d, columns + first, out);
+      for (std::size_t k = 0; k < N; ++k)
+        if (to[k]) hn::StoreU(out[k], d, to[k] + first);
+    }
   }
 }

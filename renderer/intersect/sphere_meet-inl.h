@@ -25,7 +25,7 @@ HWY_INLINE bool meet(const SphereTarget& target, const double* const* rays, Grou
   const Lift<D> lift;
   const V zero = lift(0.0), one = lift(1.0);
   V ray[8];
-  columns_of(d, rays, ray);
+  columns_of<8>(d, rays, ray);
   const V *o = ray, *along = ray + 3, t_min = ray[6], t_max = ray[7];
   const V dx = along[0], dy = along[1], dz = along[2];
   // Lengths of the directions as in sphere_ray.cpp.

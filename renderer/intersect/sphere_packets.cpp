@@ -1,6 +1,7 @@
 #include "renderer/intersect/sphere_packets.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -33,23 +34,35 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "renderer/intersect/sphere_lanes-inl.h"
 #include "renderer/intersect/sphere_meet-inl.h"
 
+HWY_INLINE unsigned bits_of(M mask) {
+  std::uint8_t bytes[8];  // of which it may write all
+  hn::StoreMaskBits(D(), mask, bytes);
+  return bytes[0];
+}
+HWY_INLINE M mask_of(unsigned bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+  return hn::LoadMaskBits(D(), bytes);
+}
+
 // What the cells and patches of a group's hits say.
 struct Held {
   const SphereCell* cells[lane_count];
   const SpherePatch* patches[lane_count];
   std::int32_t owners[lane_count];
-  V owned, several;  // 1 or 0
+  unsigned owned = 0, several = 0;  // lanes of which a patch is known there; another, too
 };
 
+HWY_INLINE void hold(const SpherePatches& all, std::size_t k, std::size_t which, Held& held) {
+  const SphereCell& cell = all.cells[which];
+  held.cells[k] = &cell, held.owners[k] = std::max(cell.owner, 0);
+  held.patches[k] = &all.patches[static_cast<std::size_t>(held.owners[k])];
+  const unsigned bit = 1u << k;
+  held.owned = cell.owner < 0 ? held.owned & ~bit : held.owned | bit;
+  held.several = cell.next < 0 ? held.several & ~bit : held.several | bit;
+}
+
 HWY_INLINE void fetch(const SpherePatches& all, const Group& g, Held& held) {
-  alignas(64) double owned[lane_count], several[lane_count];
-  for (std::size_t k = 0; k < lane_count; ++k) {
-    const SphereCell& cell = all.cells[static_cast<std::size_t>(g.cell[k])];
-    held.cells[k] = &cell, held.owners[k] = std::max(cell.owner, 0);
-    held.patches[k] = &all.patches[static_cast<std::size_t>(held.owners[k])];
-    owned[k] = cell.owner < 0 ? 0.0 : 1.0, several[k] = cell.next < 0 ? 0.0 : 1.0;
-  }
-  held.owned = hn::Load(D(), owned), held.several = hn::Load(D(), several);
+  for (std::size_t k = 0; k < lane_count; ++k) hold(all, k, static_cast<std::size_t>(g.cell[k]), held);
 }
 
 // As SphereCell::start_at: pairs of floats, u and v, in the place of doubles.
@@ -60,13 +73,13 @@ HWY_INLINE void start(const Held& held, const Group& g, V& u, V& v) {
   const hn::RebindToUnsigned<D> du;
   const hn::Rebind<std::uint32_t, D> du32;
   const double* rows[lane_count];
-  V numbers[8], more[8];
+  V numbers[8], more[4];
   for (std::size_t k = 0; k < lane_count; ++k)
     rows[k] = reinterpret_cast<const double*>(held.cells[k]->start);
-  columns_of(d, rows, numbers);
-  for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 2;
-  columns_of(d, rows, more);
-  const auto f = [&](int k) HWY_ATTR { return hn::BitCast(pairs, k < 8 ? numbers[k] : more[k - 2]); };
+  columns_of<8>(d, rows, numbers);
+  for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 6;
+  columns_of<4>(d, rows, more);
+  const auto f = [&](int k) HWY_ATTR { return hn::BitCast(pairs, k < 8 ? numbers[k] : more[k - 6]); };
   const auto twice = [&](V x) HWY_ATTR {
     const auto bits = hn::PromoteTo(du, hn::BitCast(du32, hn::DemoteTo(df, x)));
     return hn::BitCast(pairs, hn::Or(bits, hn::ShiftLeft<32>(bits)));
@@ -77,6 +90,31 @@ HWY_INLINE void start(const Held& held, const Group& g, V& u, V& v) {
   const auto bits = hn::BitCast(du, both);
   u = hn::PromoteTo(d, hn::BitCast(df, hn::TruncateTo(du32, bits)));
   v = hn::PromoteTo(d, hn::BitCast(df, hn::TruncateTo(du32, hn::ShiftRight<32>(bits))));
+}
+
+// As in_domain, of patches of either kind.
+HWY_INLINE M inside(const dvec2& middle, bool triangle, V u, V v) {
+  const D d;
+  const V p = u + hn::Set(d, middle.x), q = v + hn::Set(d, middle.y), zero = hn::Zero(d);
+  const V farthest = triangle ? p + q : hn::Max(p, q);
+  return hn::And(hn::And(hn::Ge(p, zero), hn::Ge(q, zero)), hn::Le(farthest, hn::Set(d, 1.0)));
+}
+
+// As cell_around. Lanes that it cannot tell of are not in what is returned.
+HWY_INLINE M start_around(const SpherePatches& all, const Group& g, Held& held, V& u, V& v) {
+  const bool triangle = all.patches[0].triangle;
+  for (;;) {
+    start(held, g, u, v);
+    if (held.several == 0) return g.hit;
+    if (!all.one_kind) return hn::Not(mask_of(held.several));
+    const M here = inside(all.inverses[0].middle, triangle, u, v);
+    unsigned astray = held.several & bits_of(hn::AndNot(here, g.hit));
+    if (astray == 0) return g.hit;
+    for (; astray != 0; astray &= astray - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(astray));
+      hold(all, k, static_cast<std::size_t>(held.cells[k]->next), held);
+    }
+  }
 }
 
 // The points in their patches' frames; z less 1.
@@ -91,12 +129,10 @@ HWY_INLINE void turn_to_patches(const Held& held, const V* n, V& x, V& y, V& w) 
       for (int k = 0; k < 3; ++k) m[i][k] = lift(held.patches[0]->axes[i][k]);
   } else {
     const double* rows[lane_count];
-    V last[8];
     for (std::size_t k = 0; k < lane_count; ++k) rows[k] = &held.patches[k]->axes[0].x;
-    columns_of(d, rows, &m[0][0]);
-    for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 4;
-    columns_of(d, rows, last);
-    for (int k = 0; k < 4; ++k) m[2][k] = last[4 + k];
+    columns_of<8>(d, rows, &m[0][0]);
+    for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 8;
+    columns_of<4>(d, rows, m[2]);
   }
   x = (m[0][0] * n[0] + m[1][0] * n[1]) + m[2][0] * n[2];
   y = (m[0][1] * n[0] + m[1][1] * n[1]) + m[2][1] * n[2];
@@ -126,15 +162,14 @@ HWY_INLINE M parameters_at(const PatchInverse& inverse, V x, V y, V w, V& u, V& 
 
 // The parameters of the hits. Lanes whose patch does not hold them, or has not told in a few steps, are no
 // longer known.
-HWY_INLINE void place(const SpherePatches& patches, const Held& held, Group& g, V& out_u, V& out_v) {
+HWY_INLINE void place(const SpherePatches& patches, Held& held, Group& g, V& out_u, V& out_v) {
   const D d;
   const Lift<D> lift;
   const V zero = lift(0.0), one = lift(1.0);
   V u, v, x, y, w;
-  start(held, g, u, v);
+  const M clear = start_around(patches, g, held, u, v);
   turn_to_patches(held, g.point, x, y, w);
-  const M alone = hn::Eq(held.several, zero);
-  M pending = hn::And(g.hit, hn::Eq(held.owned, one)), placed = hn::Lt(one, zero);
+  M pending = hn::And(hn::And(g.hit, clear), mask_of(held.owned)), placed = hn::Lt(one, zero);
   out_u = out_v = zero;
   // Patches are mostly congruent; where not, one inverse after the other.
   const bool congruent = patches.inverses.size() == 1;
@@ -151,15 +186,8 @@ HWY_INLINE void place(const SpherePatches& patches, const Held& held, Group& g, 
     V this_u = u, this_v = v;
     M good = inverse.degree == 2 ? parameters_at<2>(inverse, x, y, w, this_u, this_v)
                                  : parameters_at<4>(inverse, x, y, w, this_u, this_v);
-    // As in_domain.
-    const V middle_u = lift(inverse.middle.x), middle_v = lift(inverse.middle.y);
-    const auto inside = [&](V p, V q) HWY_ATTR {
-      const V farthest = inverse.middle.x == 0.5 ? hn::Max(p, q) : p + q;
-      return hn::And(hn::And(hn::Ge(p, zero), hn::Ge(q, zero)), hn::Le(farthest, one));
-    };
-    this_u = this_u + middle_u, this_v = this_v + middle_v;
-    good = hn::And(hn::And(good, these), inside(this_u, this_v));
-    good = hn::And(good, hn::Or(alone, inside(u + middle_u, v + middle_v)));
+    good = hn::And(hn::And(good, these), inside(inverse.middle, inverse.middle.x != 0.5, this_u, this_v));
+    this_u = this_u + lift(inverse.middle.x), this_v = this_v + lift(inverse.middle.y);
     out_u = hn::IfThenElse(these, this_u, out_u), out_v = hn::IfThenElse(these, this_v, out_v);
     placed = hn::Or(placed, good);
   }
@@ -178,39 +206,42 @@ HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group
   const Lift<D> lift;
   const hn::RebindToSigned<D> di;
   const V zero = lift(0.0);
-  alignas(64) double known[lane_count], outward[lane_count];
-  alignas(64) std::int64_t names[lane_count];
-  hn::Store(hn::IfThenElseZero(g.known, lift(1.0)), d, known);
+  const unsigned known = bits_of(g.known), hit = bits_of(g.hit);
   double* to[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) {
-    const bool mine = k < count && known[k] != 0.0 && rays[k].start.surface != target.surface;
+    const bool mine = k < count && (known >> k & 1u) != 0 && rays[k].start.surface != target.surface;
     to[k] = mine ? &hits[k].t : nullptr;
     if (k < count) done[k] = mine ? 1 : 0;
-    names[k] = static_cast<std::int64_t>(target.sphere->name_of(held.owners[k])) << 32 | target.surface;
-    outward[k] = held.patches[k]->outward;
+  }
+  V side = lift(target.sphere->outward);
+  if (target.sphere->outward == 0.0) {
+    alignas(64) double outward[lane_count];
+    for (std::size_t k = 0; k < lane_count; ++k) outward[k] = held.patches[k]->outward;
+    side = hn::Load(d, outward);
   }
   const dvec3 &frame = target.frame, &center = target.sphere->center;
-  const V radius = lift(target.radius), side = hn::Load(d, outward);
-  V numbers[11] = {g.t, g.t_error, hn::BitCast(d, hn::Load(di, names)), u, v};
+  const V radius = lift(target.radius), nobody = hn::BitCast(d, hn::Set(di, std::int64_t{-1}));
+  V numbers[11] = {g.t, g.t_error, nobody, u, v};
   for (int k = 0; k < 3; ++k) {
     numbers[5 + k] = lift(frame[k]) + (lift(center[k]) + radius * g.point[k]);
     numbers[8 + k] = side * g.point[k];
   }
-  const V none[3] = {lift(INFINITY), zero, hn::BitCast(d, hn::Set(di, std::int64_t{-1}))};
+  const V none[3] = {lift(INFINITY), zero, nobody};
   for (int k = 0; k < 11; ++k) numbers[k] = hn::IfThenElse(g.hit, numbers[k], k < 3 ? none[k] : zero);
-  rows_of(d, numbers, to);
+  rows_of<8>(d, numbers, to);
   for (double*& row : to)
-    if (row) row += 3;
-  rows_of(d, numbers + 3, to);
+    if (row) row += 7;
+  rows_of<4>(d, numbers + 7, to);
+  for (std::size_t k = 0; k < lane_count; ++k)
+    if (to[k] && (hit >> k & 1u) != 0)
+      hits[k].surface = target.surface, hits[k].patch = target.sphere->name_of(held.owners[k]);
 }
 
 HWY_INLINE void unload_misses(const SphereTarget& target, const Group& g, const Ray* rays, std::size_t count,
                               Hit* hits, unsigned char* done) {
-  const D d;
-  alignas(64) double known[lane_count];
-  hn::Store(hn::IfThenElseZero(g.known, hn::Set(d, 1.0)), d, known);
+  const unsigned known = bits_of(g.known);
   for (std::size_t k = 0; k < count; ++k) {
-    done[k] = known[k] != 0.0 && rays[k].start.surface != target.surface ? 1 : 0;
+    done[k] = (known >> k & 1u) != 0 && rays[k].start.surface != target.surface ? 1 : 0;
     if (done[k]) hits[k] = Hit{};
   }
 }
@@ -223,6 +254,10 @@ void closest_wide(const SphereTarget& target, const Ray* rays, std::size_t count
   Held held[groups];
   const SpherePatches& patches = *target.sphere->patches;
   for (std::size_t first = 0; first < count; first += groups * lane_count) {
+    // Those after these: callers mostly go through an array, a packet at a time.
+    const auto next = reinterpret_cast<std::uintptr_t>(rays + first) + 2 * groups * lane_count * sizeof(Ray);
+    for (std::size_t line = 0; line < groups * lane_count * sizeof(Ray); line += 64)
+      __builtin_prefetch(reinterpret_cast<const void*>(next + line));
     const auto begin = [&](std::size_t g) HWY_ATTR { return std::min(first + g * lane_count, count); };
     const std::size_t used = begin(1) < count ? groups : 1;
     bool hit[groups]{};

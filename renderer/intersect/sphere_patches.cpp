@@ -134,6 +134,7 @@ bool build_sphere_patches(const std::vector<Net>& nets, double rounding, int cel
     }
     patch.inverse = static_cast<std::int32_t>(same);
     out.patches.push_back(patch);
+    out.one_kind = out.one_kind && patch.triangle == out.patches[0].triangle;
   }
   out.cells_a_side = cells_a_side;
   fill_sphere_cells(nets, out);

@@ -74,6 +74,7 @@ struct SphereCandidate {
 struct SpherePatches {
   std::vector<PatchInverse> inverses;
   std::vector<SpherePatch> patches;  // in the order of their nets
+  bool one_kind = true;              // all triangles, or none
   int cells_a_side = 0;
   std::vector<SphereCell> cells;  // [(face * side + row) * side + column], then those that others call next
   std::vector<SphereCandidate> candidates;
