@@ -50,7 +50,7 @@ struct TensorShape {
   }
   template <class T>
   SecondOrder<T> second(const T* f, dvec2 p) const {
-    return with_degrees(m, n, [&](auto a, auto b) { return tensor_second<a, b>(f, m, n, p.x, p.y); });
+    return with_degrees(m, n, [&](auto a, auto b) { return tensor_second_by_sums<a, b>(f, m, n, p.x, p.y); });
   }
   template <class T>
   void restrict_to(const T* patch, const Cell& c, T* out) const {
