@@ -8,6 +8,7 @@
 
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/bezier/regular_normal.h"
 #include "renderer/bezier/tangents_in.h"
 
 namespace rondure {
@@ -237,22 +238,14 @@ double cross_error(const Net& net, double u, double v, const FirstOrder<dvec4>& 
   return std::isfinite(error) ? error : infinity;
 }
 
-// The squares of lengths between these are neither subnormal nor infinite.
-constexpr double shortest = 1e-145, longest = 1e150;
-
 }  // namespace
 
 dvec3 unit_normal(const Net& net, double u, double v, const FirstOrder<dvec4>& f) {
   const Tangents t = tangents(f);
   const dvec3 n = glm::cross(t.a, t.b);
   const double size = glm::length(n);
-  // Rounding turns the cross product by about (error of a) |b| / |n| + |a| (error of b) / |n|. The tangents
-  // are sums of control points, so their errors are relative to those, whatever the unit of length. The
-  // comparison with `shortest` is what excludes tangents of length zero, where both sides would be zero.
-  const double noise = 8.0 * epsilon * degree_of(net) * magnitude(net, f);
-  if (noise * (glm::length(t.a) + glm::length(t.b)) <= accurate * size && size > shortest && size < longest) {
-    return n / size;
-  }
+  const double noise = normal_noise(degree_of(net), magnitude(net, f));
+  if (is_regular_normal(noise, glm::length(t.a) + glm::length(t.b), size)) return n / size;
   const double scale = spread(net, t.point);
   if (scale == 0.0) return dvec3(0.0);
   const dvec3 relative = relative_cross(t, scale);

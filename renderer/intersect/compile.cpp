@@ -44,6 +44,8 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
       without[k] = radial[k] || (!found.rest.empty() && !found.rest[k]);
     }
     compiled.set = build_leaves(surface.patches, max_depth, without);
+    if (found.rest.empty() || std::find(found.rest.begin(), found.rest.end(), true) != found.rest.end())
+      for (const Net& net : surface.patches) compiled.patches.push_back(newton_patch(net));
     for (std::size_t k = 0; k < radial.size(); ++k)
       if (radial[k])
         add_radial_leaves(surface.patches[k], static_cast<int>(k), std::min(radial_depth, max_depth / 2),

@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -27,6 +28,8 @@ using EmbreeContext = RTCIntersectContext;
 struct QueryContext {
   EmbreeContext base;
   void* query;
+  EmbreeScene::PacketVisitor packet_visitor;
+  std::size_t first;  // of the rays that are traversed
 };
 
 struct GeometryData {
@@ -64,10 +67,16 @@ void bounds_of_leaf(const RTCBoundsFunctionArguments* args) {
 }
 
 void intersect_leaf(const RTCIntersectFunctionNArguments* args) noexcept {
-  if (args->valid[0] == 0) return;
   const auto& data = *static_cast<const GeometryData*>(args->geometryUserPtr);
-  void* query = reinterpret_cast<QueryContext*>(args->context)->query;
+  const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+  void* query = context.query;
   const LeafName name = data.name_of(args->primID);
+  if (args->N > 1) {
+    context.packet_visitor(query, name.surface, name.leaf, context.first, args->N, args->valid,
+                           &RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
+    return;
+  }
+  if (args->valid[0] == 0) return;
   data.visitor(query, name.surface, name.leaf,
                RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0));
 }
@@ -91,14 +100,14 @@ void set_ray(EmbreeRay& ray, const dvec3& origin, const dvec3& direction, double
   ray.time = 0.0f, ray.mask = 0xffffffffu, ray.id = 0, ray.flags = 0;
 }
 
-QueryContext make_context(void* query) {
+QueryContext make_context(void* query, EmbreeScene::PacketVisitor packet_visitor = nullptr) {
   QueryContext context;
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&context.base);
 #else
   rtcInitIntersectContext(&context.base);
 #endif
-  context.query = query;
+  context.query = query, context.packet_visitor = packet_visitor, context.first = 0;
   return context;
 }
 
@@ -123,8 +132,41 @@ float round_far(double t) {
   return static_cast<float>(std::max(t, 0.0) * (1.0 + 0x1p-19)) + 0x1p-100f;
 }
 
+namespace {
+
+std::size_t width_of(RTCDevice device) {
+  const auto has = [&](RTCDeviceProperty p) { return rtcGetDeviceProperty(device, p) != 0; };
+  return has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)  ? 16
+         : has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8
+         : has(RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) ? 4
+                                                          : 0;
+}
+
+// As many of the packet's rays as `Rays` holds, from `first` on.
+template <class Rays, std::size_t count, class Intersect>
+void visit_part(const EmbreeScene::Packet& packet, std::size_t first, const Intersect& intersect) {
+  alignas(64) int valid[count];
+  const auto copy = [&](const auto& from, auto* to) { std::copy(from + first, from + first + count, to); };
+  copy(packet.valid, valid);
+  if (std::find(valid, valid + count, -1) == valid + count) return;
+  Rays rays;
+  copy(packet.origin[0], rays.ray.org_x), copy(packet.origin[1], rays.ray.org_y);
+  copy(packet.origin[2], rays.ray.org_z), copy(packet.direction[0], rays.ray.dir_x);
+  copy(packet.direction[1], rays.ray.dir_y), copy(packet.direction[2], rays.ray.dir_z);
+  copy(packet.far, rays.ray.tfar);
+  for (std::size_t k = 0; k < count; ++k) {
+    rays.ray.tnear[k] = rays.ray.time[k] = 0.0f;
+    rays.ray.mask[k] = 0xffffffffu, rays.ray.id[k] = rays.ray.flags[k] = 0;
+    rays.hit.geomID[k] = rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  intersect(valid, rays);
+}
+
+}  // namespace
+
 struct EmbreeScene::Implementation {
   Memory memory;
+  std::size_t width = 0;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   GeometryData data;
@@ -143,6 +185,7 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   self.device = rtcNewDevice(settings);
   if (!self.device)
     throw std::runtime_error("Embree: no device, error " + std::to_string(rtcGetDeviceError(nullptr)));
+  self.width = width_of(self.device);
   self.memory.there.give();
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.memory);
   self.scene = rtcNewScene(self.device);
@@ -198,6 +241,37 @@ bool EmbreeScene::visit_any(const dvec3& origin, const dvec3& direction, double 
   rtcOccluded1(implementation_->scene, &context.base, &ray);
 #endif
   return ray.tfar < 0.0f;
+}
+
+std::size_t EmbreeScene::width() const { return implementation_->width; }
+
+void EmbreeScene::visit_packet(const Packet& packet, PacketVisitor visitor, void* query) const noexcept {
+  QueryContext context = make_context(query, visitor);
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context.base;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  const auto with = [&](auto call) {
+    return
+        [&, call](const int* valid, auto& rays) { call(valid, implementation_->scene, &rays, &arguments); };
+  };
+#else
+  context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const auto with = [&](auto call) {
+    return [&, call](const int* valid, auto& rays) {
+      call(valid, implementation_->scene, &context.base, &rays);
+    };
+  };
+#endif
+  const std::size_t step = width();
+  for (context.first = 0; step > 0 && context.first < packet_width; context.first += step)
+    if (step == 16)
+      visit_part<RTCRayHit16, 16>(packet, context.first, with(rtcIntersect16));
+    else if (step == 8)
+      visit_part<RTCRayHit8, 8>(packet, context.first, with(rtcIntersect8));
+    else
+      visit_part<RTCRayHit4, 4>(packet, context.first, with(rtcIntersect4));
 }
 
 std::size_t EmbreeScene::bytes() const {

@@ -32,6 +32,16 @@ class EmbreeScene {
   // an occlusion query.
   using Visitor = bool (*)(void* query, unsigned surface, unsigned leaf, float& far) noexcept;
 
+  // Rays that are met together; valid[k] is -1, or 0 where there is none. As for one ray otherwise.
+  static constexpr std::size_t packet_width = 16;
+  struct Packet {
+    alignas(64) float origin[3][packet_width], direction[3][packet_width], far[packet_width];
+    alignas(64) int valid[packet_width];
+  };
+  // `valid` and `far` are of `count` rays from the packet's ray `first` on.
+  using PacketVisitor = void (*)(void* query, unsigned surface, unsigned leaf, std::size_t first,
+                                 std::size_t count, const int* valid, float* far) noexcept;
+
   // boxes[k] bounds the leaf names[k], in double, about the scene's centre; every corner is within `radius`
   // of it. `settings` are Embree's own, such as "isa=avx2". Throws std::runtime_error when it cannot.
   EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> names, double radius, Visitor visitor,
@@ -44,6 +54,11 @@ class EmbreeScene {
   // (Embree aborts the process on them).
   void visit_all(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept;
   bool visit_any(const dvec3& origin, const dvec3& direction, double far, void* query) const noexcept;
+
+  // How many of a packet's rays the machine traverses together: 16, 8, 4, or 0 where it cannot.
+  std::size_t width() const;
+  // The closest hits; `far` is rounded up already.
+  void visit_packet(const Packet& packet, PacketVisitor visitor, void* query) const noexcept;
 
   std::size_t bytes() const;
 

@@ -37,8 +37,16 @@ class Hierarchy {
     return embree_->visit_any(entry.origin, local.direction, entry.far, query);
   }
 
+  std::size_t packet_width() const { return embree_->width(); }
+  void visit_packet(const EmbreeScene::Packet& packet, EmbreeScene::PacketVisitor visitor,
+                    void* query) const noexcept {
+    embree_->visit_packet(packet, visitor, query);
+  }
+
   dvec3 center() const { return center_; }
   double radius() const { return radius_; }
+  // What the traversal's lengths are multiplied by.
+  double unit() const { return unit_; }
   std::size_t bytes() const { return embree_->bytes(); }
 
  private:
@@ -49,8 +57,7 @@ class Hierarchy {
   std::unique_ptr<EmbreeScene> embree_;
 
   // `base`: the point of the ray nearest to the centre, and `slide` its t, in units of the traversal.
-  bool enter(const LocalRay& local, dvec3 base, double slide, double t_min, double t_max,
-             Entry& entry) const;
+  bool enter(const LocalRay& local, dvec3 base, double slide, double t_min, double t_max, Entry& entry) const;
 };
 
 }  // namespace rondure

@@ -37,6 +37,7 @@ struct LeafFrame {
   // The surface to second order: zeta = bend (xi^2, xi eta, eta^2), and (a, b) = (xi, eta) - turn (...).
   float bend[3];
   float turn[3][2];
+  float bound_bend;  // over the leaf, |zeta - bend (...)|, with room for rounding
 };
 
 struct Leaf {

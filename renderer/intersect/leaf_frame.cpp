@@ -1,5 +1,6 @@
 #include "renderer/intersect/leaf_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -45,20 +46,35 @@ void visit_parameters(const TensorShape& shape, const Visit& visit) {
   std::size_t k = 0;
   for (int i = 0; i <= shape.m; ++i)
     for (int j = 0; j <= shape.n; ++j)
-      visit(k++, dvec2(static_cast<double>(i) / shape.m, static_cast<double>(j) / shape.n) - 0.5);
+      visit(k++, i, j, dvec2(static_cast<double>(i) / shape.m, static_cast<double>(j) / shape.n) - 0.5);
 }
 template <class Visit>
 void visit_parameters(const TriangleShape& shape, const Visit& visit) {
   std::size_t k = 0;
   for (int i = 0; i <= shape.n; ++i)
     for (int j = 0; j <= shape.n - i; ++j)
-      visit(k++, dvec2(static_cast<double>(i) / shape.n, static_cast<double>(j) / shape.n) - 1.0 / 3.0);
+      visit(k++, i, j, dvec2(static_cast<double>(i) / shape.n, static_cast<double>(j) / shape.n) - 1.0 / 3.0);
 }
+
+// The Bernstein coefficients of (a^2, a b, b^2), for a shape of degree 2 at least.
+dvec3 square_coefficients(const TensorShape& shape, int i, int j, dvec2 p) {
+  const auto square = [](int n, int k, double a) {  // (t - 1/2)^2 less its value at the coefficient's place
+    const double t = static_cast<double>(k) / n;
+    return a * a - t * (1.0 - t) / (n - 1);
+  };
+  return {square(shape.m, i, p.x), p.x * p.y, square(shape.n, j, p.y)};
+}
+dvec3 square_coefficients(const TriangleShape& shape, int i, int j, dvec2 p) {
+  const double n = shape.n, u = i / n, v = j / n, rest = 1.0 / (n - 1.0);
+  return {p.x * p.x - u * (1.0 - u) * rest, p.x * p.y + u * v * rest, p.y * p.y - v * (1.0 - v) * rest};
+}
+bool has_squares(const TensorShape& shape) { return shape.m > 1 && shape.n > 1; }
+bool has_squares(const TriangleShape& shape) { return shape.n > 1; }
 
 void leave_unbounded(LeafFrame& f) {
   f = {};
   f.bound[0] = f.bound[1] = f.bound_zeta = f.bound_weight = unbounded;
-  f.slack = f.slack_weight = f.slack_zeta[0] = f.slack_zeta[1] = unbounded;
+  f.slack = f.slack_weight = f.slack_zeta[0] = f.slack_zeta[1] = f.bound_bend = unbounded;
 }
 
 // Homogeneous coordinates to those of the frame, the weight of the centre being 1.
@@ -103,10 +119,14 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
   const ToFrame to_frame{frame, 1.0 / center.value.w};
   dvec4 most(0.0);
   Interval zeta;
-  visit_parameters(shape, [&](std::size_t k, dvec2 p) {
+  const dvec3 bend(frame.bend[0], frame.bend[1], frame.bend[2]);
+  double sagging = has_squares(shape) ? 0.0 : unbounded;
+  visit_parameters(shape, [&](std::size_t k, int i, int j, dvec2 p) {
     const dvec4 here = to_frame(points[k]);
     most = glm::max(most, glm::abs(here - dvec4(p, 0.0, 1.0)));
     zeta = {std::min(zeta.low, here.z), std::max(zeta.high, here.z)};
+    if (has_squares(shape))
+      sagging = std::max(sagging, std::fabs(here.z - glm::dot(bend, square_coefficients(shape, i, j, p))));
   });
   // Rounding of a ray's plane may move a root by so much, and the frame's own by less. A ray that meets the
   // leaf is no further from the origin than the leaf.
@@ -119,6 +139,18 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
   frame.bound_zeta =
       up(std::max(zeta.high - frame.middle_zeta, frame.middle_zeta - zeta.low) + error * rows[2]);
   frame.bound_weight = up(most.w);
+  frame.bound_bend = unbounded;
+  // Where rounding of the frame is nothing beside the leaf.
+  if (most.w < 0.5 && error * std::max({rows[0], rows[1], rows[2]}) < 1e-10) {
+    // w^2 (zeta - bend (xi^2, ..)) = N_zeta w - bend (N_xi^2, ..) = (N_zeta - bend (a^2, ..)) + N_zeta (w -
+    // 1)
+    // - bend (N_xi^2 - a^2, ..), each of the third order.
+    const double half = Shape::half_width(), x = most.x, y = most.y;
+    const dvec3 squares(x * (2.0 * half + x), half * (x + y) + x * y, y * (2.0 * half + y));
+    const double higher =
+        sagging + std::max(zeta.high, -zeta.low) * most.w + glm::dot(glm::abs(bend), squares);
+    frame.bound_bend = up(1.0001 * (higher / ((1.0 - most.w) * (1.0 - most.w)) + error * rows[2]));
+  }
 
   for (dvec4& p : wide) p = to_frame(p);
   dvec4 derivative[max_net_size];

@@ -2,26 +2,23 @@
 
 #include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
 #include "renderer/bezier/dispatch.h"
 #include "renderer/bezier/quotient.h"
+#include "renderer/bezier/regular_normal.h"
 
 namespace rondure {
 namespace {
 
 constexpr int step_limit = 16;  // of the patch; 2 or 3 are usual
-// Of what must be below 1 for there to be one root at most: somewhat below, Newton's method finds it.
-constexpr double uniqueness_limit = 0.9;
-constexpr double straight_limit = 0.5;
-// Below 1/3 the distance from a root of the leaf cannot grow in a step.
-constexpr double contraction_limit = 0.3;
-
 namespace baseline {
 #define FOR_THIS_SET
+#define INLINE_FOR_THIS_SET [[gnu::always_inline]] inline
 #define POINT_IN_ONE_REGISTER 0
 #include "renderer/intersect/newton_kernel.h"
 #undef FOR_THIS_SET
+#undef INLINE_FOR_THIS_SET
 #undef POINT_IN_ONE_REGISTER
 }  // namespace baseline
 
@@ -31,26 +28,16 @@ namespace baseline {
 namespace avx2 {
 #define POINT_IN_ONE_REGISTER 1
 #define FOR_THIS_SET __attribute__((target("avx2")))
+#define INLINE_FOR_THIS_SET __attribute__((target("avx2"), always_inline)) inline
 #include "renderer/intersect/newton_kernel.h"
 #undef FOR_THIS_SET
+#undef INLINE_FOR_THIS_SET
 #undef POINT_IN_ONE_REGISTER
 }  // namespace avx2
 #pragma GCC pop_options
 #endif
 
-using Kernel = NewtonVerdict (*)(const Leaf&, const Net&, const LocalRay&, double, NewtonRoot&,
-                                 NewtonCounts&) noexcept;
-
-Kernel kernel_for(Instructions set) {
-#ifdef __x86_64__
-  if (set == Instructions::avx2) return avx2::on_leaf;
-#endif
-  return baseline::on_leaf;
-}
-
 Instructions best() { return has(Instructions::avx2) ? Instructions::avx2 : Instructions::baseline; }
-
-const Kernel kernel = kernel_for(best());
 
 }  // namespace
 
@@ -61,17 +48,26 @@ bool has([[maybe_unused]] Instructions set) {
   return set == Instructions::baseline;
 }
 
-NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error,
-                             NewtonRoot& out, NewtonCounts& counts) noexcept {
-  ++counts.leaves;
-  const NewtonVerdict verdict = kernel(leaf, net, ray, error, out, counts);
-  if (verdict == NewtonVerdict::undecided) ++counts.undecided;
-  return verdict;
+NewtonPatch newton_patch(const Net& net, [[maybe_unused]] Instructions set) {
+  NewtonPatch patch;
+  patch.points = points_of(net).data();
+  if (const auto* t = std::get_if<TensorNet>(&net))
+    patch.m = t->m, patch.n = t->n;
+  else
+    patch.m = std::get<TriangleNet>(net).n, patch.n = -1;
+  dvec4 most(0.0);
+  for (const dvec4& p : points_of(net)) most = glm::max(most, glm::abs(p));
+  patch.noise = std::sqrt(3.0) * normal_noise(std::max(patch.m, patch.n), most.x + most.y + most.z);
+  patch.on_leaf = baseline::kernel_for(patch);
+#ifdef __x86_64__
+  if (set == Instructions::avx2) patch.on_leaf = avx2::kernel_for(patch);
+#endif
+  return patch;
 }
 
-NewtonVerdict newton_on_leaf(Instructions set, const Leaf& leaf, const Net& net, const LocalRay& ray,
-                             double error, NewtonRoot& out, NewtonCounts& counts) noexcept {
-  return kernel_for(set)(leaf, net, ray, error, out, counts);
+NewtonPatch newton_patch(const Net& net) {
+  static const Instructions set = best();
+  return newton_patch(net, set);
 }
 
 }  // namespace rondure

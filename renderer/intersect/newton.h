@@ -15,13 +15,27 @@
 // beside it, is then where the root is. The method starts from where the ray meets the leaf's osculating
 // paraboloid, so that one or two steps are usual.
 //
-// Otherwise the ray grazes the leaf, or the leaf touches a singular point: undecided, and `clipping` has to
-// look.
+// Otherwise the ray grazes the leaf, or the leaf touches a singular point. If it stays further from the
+// leaf's osculating paraboloid than any point of the leaf is, there is none after all; else it is undecided,
+// and `clipping` has to look.
 #pragma once
 
 #include "renderer/intersect/leaf.h"
 
 namespace rondure {
+
+namespace newton_limits {
+
+// Of what must be below 1 for there to be one root at most: somewhat below, Newton's method finds it.
+inline constexpr double uniqueness = 0.9;
+inline constexpr double straight = 0.5;
+// Below 1/3 the distance from a root of the leaf cannot grow in a step.
+inline constexpr double contraction = 0.3;
+// So short a step from where the second derivatives are known, and then one so short: the third derivatives,
+// a hundredth or so in a leaf's parameters, do not count.
+inline constexpr double longest_bent = 0x1p-9, longest_moved = 0x1p-38;
+
+}  // namespace newton_limits
 
 enum class NewtonVerdict { none, root, undecided };
 
@@ -38,18 +52,28 @@ struct NewtonRoot {
   FirstOrder<dvec4> surface;
 };
 
-// `out` is set when the verdict is `root`; rounding may have put it outside the patch.
-NewtonVerdict newton_on_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, double error,
-                             NewtonRoot& out, NewtonCounts& counts) noexcept;
-
 // Instruction sets that the method is compiled for. The results are the same bits on all.
 enum class Instructions { baseline, avx2 };
 
 // Whether this machine has the set.
 bool has(Instructions set);
 
-// The same on one of them; the other takes the best that the machine has.
-NewtonVerdict newton_on_leaf(Instructions set, const Leaf& leaf, const Net& net, const LocalRay& ray,
-                             double error, NewtonRoot& out, NewtonCounts& counts) noexcept;
+// What the method needs of a patch, whose net must stay where it is.
+struct NewtonPatch {
+  const dvec4* points = nullptr;
+  int m = 0, n = 0;  // degrees along u and v; of a triangle, its degree and -1
+  double noise =
+      0.0;  // a bound on normal_noise (regular_normal.h) everywhere, in units of a component's size
+  // `out` is set when the verdict is `root`; rounding may have put it outside the patch. `error`:
+  // residual_bound of the leaf.
+  NewtonVerdict (*on_leaf)(const Leaf& leaf, const NewtonPatch& patch, const LocalRay& ray, double error,
+                           NewtonRoot& out, NewtonCounts& counts) noexcept = nullptr;
+
+  bool is_rectangle() const { return n >= 0; }
+};
+
+// By the best instructions that the machine has, or by these.
+NewtonPatch newton_patch(const Net& net);
+NewtonPatch newton_patch(const Net& net, Instructions set);
 
 }  // namespace rondure

@@ -42,41 +42,36 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
   return accept_at_contact(*q.ray, local, frame, size, c, contact, t);
 }
 
-enum class Taken { no, noted, nearest, settled };
-
-// Takes one crossing into the query; `normal()` is the unit normal there, asked for when every hit counts.
-// `nearest`: it is the best so far, and its normal still to come. `settled`: an occlusion query is answered.
+// Takes one crossing into the query; `normal()` is the unit normal there. True when an occlusion query is
+// answered.
 template <class Normal>
-Taken take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
-           const Crossing& c, float& far) {
+bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, const Normal& normal,
+          const Crossing& c, float& far) {
   Hit hit;
   const dvec3& frame = q.surfaces[surface].origin;
-  if (!is_hit(q, surface, q.local, c, normal, hit.t)) return Taken::no;
-  if (q.mode == Mode::any) return Taken::settled;
+  if (!is_hit(q, surface, q.local, c, normal, hit.t)) return false;
+  if (q.mode == Mode::any) return true;
+  if (q.mode == Mode::closest && hit.t > q.best.t) return false;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
+  hit.point = frame + point, hit.normal = normal();
   if (q.mode == Mode::all) {
-    hit.point = frame + point, hit.normal = normal();
     q.hits->push_back(hit);
     q.signs->push_back(c.sign);
-    return Taken::noted;
+  } else if (!q.best || nearer(hit, q.best)) {
+    q.best = hit;
+    far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
   }
-  if (q.best && !nearer(hit, q.best)) return Taken::noted;
-  hit.point = frame + point;
-  q.best = hit;
-  far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
-  return Taken::nearest;
+  return false;
 }
 
 // The same for a root on a leaf, `s` being the patch there. True when an occlusion query is answered.
 bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, const Root& root,
                const FirstOrder<dvec4>& s, float& far) {
-  dvec3 point;
-  const Crossing c = cross_surface(leaf, net, q.local, root, s, point);
-  const auto normal = [&] { return unit_normal(net, root.u, root.v, s); };
-  const Taken taken = take(q, surface, leaf.patch, {root.u, root.v}, point, normal, c, far);
-  if (taken == Taken::nearest) q.best_first = s, q.needs_normal = true;
-  return taken == Taken::settled;
+  const double noise = q.surfaces[surface].compiled->patches[static_cast<std::size_t>(leaf.patch)].noise;
+  const SurfaceCrossing at = cross_surface(leaf, net, noise, q.local, root, s);
+  const auto normal = [&] { return at.has_normal ? at.normal : unit_normal(net, root.u, root.v, s); };
+  return take(q, surface, leaf.patch, {root.u, root.v}, at.point, normal, at.crossing, far);
 }
 
 bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, float& far) {
@@ -86,9 +81,7 @@ bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, flo
     const double error = ellipsoid_error(ellipsoid);
     const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, ellipsoid.extent, false);
     const auto normal = [&] { return hits[k].normal; };
-    const Taken taken = take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far);
-    if (taken == Taken::settled) return true;
-    if (taken == Taken::nearest) q.best.normal = hits[k].normal, q.needs_normal = false;
+    if (take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far)) return true;
   }
   return false;
 }
@@ -149,7 +142,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       continue;
     }
     if (!q.best || nearer(hit, q.best)) {
-      q.best = hit, q.needs_normal = false;
+      q.best = hit;
       far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
     }
   }
@@ -171,7 +164,7 @@ bool visit_lone_sphere(Query& q, unsigned surface, float& far) {
     Hit hit;
     const RayAnswer answer = closest_on_sphere(target, *q.ray, q.best ? q.best.t : INFINITY, hit);
     if (answer == RayAnswer::hit && (!q.best || nearer(hit, q.best))) {
-      q.best = hit, q.needs_normal = false;
+      q.best = hit;
       far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
     }
     if (answer != RayAnswer::unknown) return false;
@@ -229,7 +222,8 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
   const std::size_t ordinary = compiled.set.leaves.size() - compiled.radial.size();
   if (leaf_index < ordinary && compiled.solver != Solver::clipping) {
     NewtonRoot found;
-    const NewtonVerdict verdict = solve_by_newton(leaf, net, q.local, found, *q.counts);
+    const NewtonPatch& patch = compiled.patches[static_cast<std::size_t>(leaf.patch)];
+    const NewtonVerdict verdict = solve_by_newton(leaf, net, patch, q.local, found, *q.counts);
     if (verdict == NewtonVerdict::root)
       return take_root(q, surface, leaf, net, found.root, found.surface, far);
     if (verdict == NewtonVerdict::none) return false;
@@ -254,8 +248,15 @@ bool nearer(const Hit& a, const Hit& b) {
   if (a.t != b.t) return a.t < b.t;
   if (a.surface != b.surface) return a.surface < b.surface;
   if (a.patch != b.patch) return a.patch < b.patch;
-  // Where two leaves of one patch meet, both find the root, a last bit apart.
-  return a.u != b.u ? a.u < b.u : a.v < b.v;
+  // Where two leaves of one patch meet, both find the root, a last bit apart, or only what follows from it
+  // is.
+  if (a.u != b.u) return a.u < b.u;
+  if (a.v != b.v) return a.v < b.v;
+  if (a.t_error != b.t_error) return a.t_error < b.t_error;
+  for (const dvec3 Hit::*vector : {&Hit::point, &Hit::normal})
+    for (int k = 0; k < 3; ++k)
+      if ((a.*vector)[k] != (b.*vector)[k]) return (a.*vector)[k] < (b.*vector)[k];
+  return false;
 }
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
@@ -284,14 +285,6 @@ void finish(const Query& q, Hit& hit) {
   if (!surface.ellipsoid) return;
   const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - q.surfaces[index].origin);
   hit.u = p.x, hit.v = p.y;
-}
-
-void finish(Query& q) {
-  finish(q, q.best);
-  if (!q.needs_normal) return;
-  const Net& net = (*q.surfaces[static_cast<std::size_t>(q.best.surface)]
-                         .compiled->nets)[static_cast<std::size_t>(q.best.patch)];
-  q.best.normal = unit_normal(net, q.best.u, q.best.v, q.best_first);
 }
 
 }  // namespace rondure

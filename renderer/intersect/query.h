@@ -27,6 +27,7 @@ struct CompiledSurface {
   std::optional<Ellipsoid> ellipsoid;
   std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
   const std::vector<Net>* nets = nullptr;
+  std::vector<NewtonPatch> patches;  // of the nets, where there are leaves
   Solver solver = Solver::newton;
 };
 
@@ -60,8 +61,6 @@ struct Query {
   bool local_valid = false;
   bool has_normals = false, has_distances = false;
   Hit best{};
-  FirstOrder<dvec4> best_first{};  // the patch at `best`, where the normal is still to come from it
-  bool needs_normal = false;
   SolverCounts* counts = nullptr;  // once a net has been met
   std::vector<Hit>* hits = nullptr;
   std::vector<int>* signs = nullptr;
@@ -80,7 +79,5 @@ bool visit_shared_leaf(void* query, unsigned, unsigned leaf, float& far) noexcep
 
 // What only a hit that is reported needs: the parameters of an analytic surface.
 void finish(const Query& query, Hit& hit);
-// The same for `best`, and its normal.
-void finish(Query& query);
 
 }  // namespace rondure

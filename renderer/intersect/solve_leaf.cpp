@@ -14,16 +14,17 @@ SolverCounts& thread_counts() noexcept {
   return counts;
 }
 
-NewtonVerdict solve_by_newton(const Leaf& leaf, const Net& net, const LocalRay& ray, NewtonRoot& found,
-                              SolverCounts& counts) noexcept {
+NewtonVerdict solve_by_newton(const Leaf& leaf, const Net& net, const NewtonPatch& patch, const LocalRay& ray,
+                              NewtonRoot& found, SolverCounts& counts) noexcept {
+  ++counts.newton.leaves;
   const NewtonVerdict verdict =
-      newton_on_leaf(leaf, net, ray, residual_bound(leaf.scale, ray), found, counts.newton);
+      patch.on_leaf(leaf, patch, ray, residual_bound(leaf.scale, ray), found, counts.newton);
+  if (verdict == NewtonVerdict::undecided) ++counts.newton.undecided;
   if (verdict != NewtonVerdict::root) return verdict;
   Root& root = found.root;
   const dvec2 p(root.u, root.v);
-  const bool inside =
-      (std::holds_alternative<TensorNet>(net) ? TensorShape::outside(p) : TriangleShape::outside(p)) <= 0.0;
-  if (inside) return verdict;
+  const double outside = patch.is_rectangle() ? TensorShape::outside(p) : TriangleShape::outside(p);
+  if (outside <= 0.0) return verdict;
   if (!settle(net, leaf.scale, ray, root)) return NewtonVerdict::none;
   found.surface = net_first(net, root.u, root.v);
   return verdict;
@@ -117,7 +118,7 @@ void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay&
                 std::vector<Root>& roots, SolverCounts& counts) noexcept {
   if (solver != Solver::clipping) {
     NewtonRoot found;
-    const NewtonVerdict verdict = solve_by_newton(leaf, net, ray, found, counts);
+    const NewtonVerdict verdict = solve_by_newton(leaf, net, newton_patch(net), ray, found, counts);
     if (verdict == NewtonVerdict::root) roots.push_back(found.root);
     if (verdict != NewtonVerdict::undecided) return;
   }

@@ -1,5 +1,5 @@
 // As many rays as lanes, on their way to their hits with a sphere of patches: as sphere_ray.cpp has it for
-// one. Included inside the namespace of an instruction set, after sphere_kernel-inl.h and sphere_lanes-inl.h;
+// one. Included inside the namespace of an instruction set, after sphere_kernel-inl.h and lanes-inl.h;
 // hence no guard and no include.
 
 using D = hn::CappedTag<double, 8>;

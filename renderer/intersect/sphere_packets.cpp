@@ -30,8 +30,8 @@ void closest_wide(const SphereTarget&, const Ray*, std::size_t count, Hit*, unsi
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+#include "renderer/intersect/lanes-inl.h"
 #include "renderer/intersect/sphere_kernel-inl.h"
-#include "renderer/intersect/sphere_lanes-inl.h"
 #include "renderer/intersect/sphere_meet-inl.h"
 
 HWY_INLINE unsigned bits_of(M mask) {

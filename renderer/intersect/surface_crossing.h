@@ -3,9 +3,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "renderer/bezier/normal.h"
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/bezier/regular_normal.h"
 #include "renderer/intersect/crossing.h"
 #include "renderer/intersect/leaf.h"
 #include "renderer/intersect/settle.h"
@@ -30,27 +30,45 @@ inline double radius_along(const Net& net, const Root& root, const dvec3& direct
   return radius > extent ? std::fmin(radius, most) : extent;
 }
 
-// `s`: the patch at the root. `point` receives the place in the surface's frame.
-inline Crossing cross_surface(const Leaf& leaf, const Net& net, const LocalRay& ray, const Root& root,
-                              const FirstOrder<dvec4>& s, dvec3& point) {
+struct SurfaceCrossing {
+  Crossing crossing;
+  dvec3 point;   // in the surface's frame
+  dvec3 normal;  // what unit_normal says, unless it has to look closer
+  bool has_normal;
+};
+
+// `s`: the patch at the root. `noise`: a bound on normal_noise (regular_normal.h) everywhere on the patch,
+// for tangents that are measured by their largest components.
+inline SurfaceCrossing cross_surface(const Leaf& leaf, const Net& net, double noise, const LocalRay& ray,
+                                     const Root& root, const FirstOrder<dvec4>& s) {
+  SurfaceCrossing out;
   const double inverse = 1.0 / s.value.w;
-  point = dvec3(s.value) / s.value.w;
+  const dvec3 point = out.point = dvec3(s.value) / s.value.w;
   const dvec3 xu = dvec3(s.du) - point * s.du.w, xv = dvec3(s.dv) - point * s.dv.w;
+  const double tangents = largest(xu) + largest(xv);
   dvec3 across = glm::cross(xu, xv);
   // Beside a singular point the cross product is rounding noise; the way the ray crosses is not. (Squares
   // that leave the range of doubles end here too.)
-  if (!(glm::dot(across, across) > 1e-12 * glm::dot(xu, xu) * glm::dot(xv, xv)))
-    across = unit_normal(net, root.u, root.v, s);
+  double across2 = glm::dot(across, across);
+  if (across2 > 1e-12 * glm::dot(xu, xu) * glm::dot(xv, xv)) {
+    const double length = std::sqrt(across2);
+    out.has_normal = is_regular_normal(noise, tangents, length);
+    out.normal = across / length;
+  } else {
+    out.has_normal = true;
+    out.normal = across = unit_normal(net, root.u, root.v, s);
+    across2 = glm::dot(across, across);
+  }
   // The parameters' own resolution counts too, as it does in `settle`.
-  const double step = unit_roundoff * (largest(xu) + largest(xv)) * inverse;
+  const double step = unit_roundoff * tangents * inverse;
   const double error = settled_bound(leaf.scale, ray) * inverse + step;
   double extent = leaf.scale.position * inverse;
   const double along = glm::dot(across, ray.direction);
-  if (2.0 * extent * along * along < error * glm::dot(across, across) * ray.length2)
+  if (2.0 * extent * along * along < error * across2 * ray.length2)
     extent = radius_along(net, root, ray.direction, extent, error);
-  Crossing c = make_crossing(ray, point, across, error, extent, root.tangent);
-  move_to_tangent_plane(c, ray, point, across, step);
-  return c;
+  out.crossing = make_crossing(ray, point, across, error, extent, root.tangent);
+  move_to_tangent_plane(out.crossing, ray, point, across, step);
+  return out;
 }
 
 }  // namespace rondure

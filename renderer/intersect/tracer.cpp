@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "renderer/intersect/newton_packets.h"
 #include "renderer/intersect/query.h"
 #include "renderer/intersect/short_ray.h"
 #include "renderer/intersect/sphere_packets.h"
@@ -27,6 +28,7 @@ struct Tracer::Implementation {
 
   std::vector<LeafName> few;          // of so few leaves that no hierarchy pays
   std::optional<SphereTarget> alone;  // where a sphere is all
+  std::optional<PacketTarget> packets;
 
   // Meets every leaf that the ray may hit. True when an occlusion query is settled.
   bool visit(Query& q) const {
@@ -54,8 +56,34 @@ struct Tracer::Implementation {
     }
     Query q = make_query(ray, Mode::closest);
     visit(q);
-    if (q.best) finish(q);
+    if (q.best) finish(q, q.best);
     return q.best;
+  }
+
+  Hit closest(const Ray& ray, const PreparedRay& prepared) const {
+    Query q = make_query(ray, Mode::closest);
+    q.local = prepared.local, q.entry = prepared.entry, q.has_normals = true;
+    if (one_frame) q.local_surface = Query::every_surface, q.local_valid = true;
+    hierarchy->visit_all(q.local, q.entry, &q);
+    if (q.best) finish(q, q.best);
+    return q.best;
+  }
+
+  // As the public one, where packets are met.
+  void closest(std::span<const Ray> rays, std::span<Hit> hits) const {
+    static thread_local PreparedRay prepared[most_in_packet];  // whose numbers nobody need initialise
+    PacketAnswer answers[most_in_packet];
+    for (std::size_t first = 0; first < rays.size(); first += most_in_packet) {
+      const std::size_t count = std::min(most_in_packet, rays.size() - first);
+      closest_in_packet(*packets, &rays[first], count, &hits[first], prepared, answers);
+      thread_counts().met_in_packets +=
+          static_cast<std::size_t>(std::count(answers, answers + count, PacketAnswer::done));
+      for (std::size_t k = 0; k < count; ++k)
+        if (answers[k] == PacketAnswer::prepared)
+          hits[first + k] = closest(rays[first + k], prepared[k]);
+        else if (answers[k] == PacketAnswer::unknown)
+          hits[first + k] = closest(rays[first + k]);
+    }
   }
 
   Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode}; }
@@ -66,6 +94,9 @@ namespace {
 // Leaves beyond this many cost more memory than they save time; with more patches, each gets fewer.
 constexpr double leaf_budget = 0x1p20;
 constexpr int deepest = 11, shallowest = 2;
+// Packets do not pay for fewer rays, nor where these are so many leaves apart.
+constexpr std::size_t few_rays = 4;
+constexpr double leaves_apart = 4.0;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
@@ -154,7 +185,14 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     const unsigned k = self.few[0].surface;
     self.alone = target_at(*self.placed[k].sphere, self.placed[k].origin, static_cast<int>(k));
   }
+  double size = 0.0;
+  for (const Box& box : boxes) size += glm::distance(box.low, box.high) / static_cast<double>(boxes.size());
   self.hierarchy = std::make_unique<Hierarchy>(center, std::move(boxes), std::move(names), visit_by_name);
+  if (self.few.empty() && self.hierarchy->packet_width() > 0 &&
+      std::all_of(self.placed.begin(), self.placed.end(),
+                  [](const PlacedSurface& s) { return can_meet_packets(s); }))
+    self.packets = PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
+                                leaves_apart * size * self.hierarchy->unit()};
 }
 
 Tracer::~Tracer() = default;
@@ -180,15 +218,19 @@ bool Tracer::occluded(const Ray& ray) const noexcept {
 }
 
 void Tracer::closest(std::span<const Ray> rays, std::span<Hit> hits) const noexcept {
-  if (!implementation_->alone) {
-    for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = implementation_->closest(rays[k]);
+  const Implementation& self = *implementation_;
+  if (!self.alone) {
+    if (self.packets && rays.size() >= few_rays)
+      self.closest(rays, hits);
+    else
+      for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = self.closest(rays[k]);
     return;
   }
   constexpr std::size_t some = 16;
   unsigned char done[some];
   for (std::size_t first = 0; first < rays.size(); first += some) {
     const std::size_t count = std::min(some, rays.size() - first);
-    closest_on_sphere(*implementation_->alone, &rays[first], count, &hits[first], done);
+    closest_on_sphere(*self.alone, &rays[first], count, &hits[first], done);
     for (std::size_t k = 0; k < count; ++k)
       if (!done[k]) hits[first + k] = closest(rays[first + k]);
   }

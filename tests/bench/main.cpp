@@ -116,8 +116,8 @@ std::vector<Row> rondure_rows(const Shapes& shapes, const std::string& only = {}
                         {"octants, quadric", &shapes.octants, Solver::quadric, {1, 16}},
                         {"60 kites, quadric", &shapes.kites, Solver::quadric, {1, 16}},
                         {"cube, newton", &shapes.cube, Solver::newton, {1, 16}, 4},
-                        {"hemispheres, newton", &shapes.hemispheres, Solver::newton, {1}, 4},
-                        {"octants, newton", &shapes.octants, Solver::newton, {1}, 4},
+                        {"hemispheres, newton", &shapes.hemispheres, Solver::newton, {1, 16}, 4},
+                        {"octants, newton", &shapes.octants, Solver::newton, {1, 16}, 4},
                         {"cube, clipping", &shapes.cube, Solver::clipping, {1}, 8}};
   std::vector<Row> rows;
   for (const Case& c : cases) {

@@ -17,7 +17,8 @@ void measure(std::vector<Row>& rows, const References& references, int rounds) {
     for (const Row& row : rows) {
       std::vector<Ray> part;
       if (row.part > 1)
-        for (std::size_t k = 0; k < sets[set].size(); k += row.part) part.push_back(sets[set][k]);
+        for (std::size_t k = 0; k < sets[set].size(); ++k)
+          if (k / static_cast<std::size_t>(row.width) % row.part == 0) part.push_back(sets[set][k]);
       parts[set].push_back(std::move(part));
     }
   }

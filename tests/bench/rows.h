@@ -15,7 +15,7 @@ struct Row {
   std::function<std::size_t(const std::vector<Ray>&)> trace;  // number of hits
   double error = 0.0;                                         // worst distance of a hit from the unit sphere
   std::size_t bytes = 0;
-  std::size_t part = 1;  // traces every part-th ray only: of rows that are slow
+  std::size_t part = 1;  // traces every part-th ray or packet only: of rows that are slow
   // By ray set (coherent, incoherent), a round each: million rays a second, and that over the rate of the
   // reference of the same width in the same round.
   std::vector<double> rate[2] = {}, ratio[2] = {};

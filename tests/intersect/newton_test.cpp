@@ -25,7 +25,8 @@ struct Answer {
 Answer ask(Instructions set, const Leaf& leaf, const Net& net, const LocalRay& ray) {
   Answer a{};
   NewtonCounts counts;
-  a.verdict = newton_on_leaf(set, leaf, net, ray, residual_bound(leaf.scale, ray), a.found, counts);
+  const NewtonPatch patch = newton_patch(net, set);
+  a.verdict = patch.on_leaf(leaf, patch, ray, residual_bound(leaf.scale, ray), a.found, counts);
   return a;
 }
 
@@ -58,7 +59,13 @@ void visit_rays(const Visit& visit) {
       const double a = 1.6 * uniform(random) - 0.3, b = 1.6 * uniform(random) - 0.3;
       const dvec2 at = leaf.to_patch({a, b});
       const double x = normal(random), y = normal(random), z = normal(random);
-      const dvec3 target = net_point(net, at.x, at.y), direction = glm::normalize(dvec3(x, y, z));
+      const dvec3 target = net_point(net, at.x, at.y), normal_there = unit_normal(net, at.x, at.y);
+      dvec3 direction = glm::normalize(dvec3(x, y, z));
+      // A third graze the patch there, at any small angle.
+      if (k % 3 == 0) {
+        const double along = glm::dot(direction, normal_there), angle = std::exp2(-30.0 * uniform(random));
+        direction = glm::normalize(direction + (std::copysign(angle, along) - along) * normal_there);
+      }
       LocalRay ray;
       if (make_local_ray(target - 3.0 * direction, direction, dvec3(0.0), ray))
         visit(leaf, net, ray, at, dvec2(a, b));
@@ -84,8 +91,8 @@ TEST_CASE("Newton's method gives the same bits on every instruction set", "[solv
 
 TEST_CASE("Newton's method finds the root that a ray was aimed at, or leaves it open", "[solvers]") {
   // The point, rounded, is off by 4 roundoffs of its size, which the leaf's parameters see magnified by at
-  // most 10^3.
-  constexpr double tolerance = 1e-12;
+  // most 10^3, and ten times that where the ray grazes the leaf and there is still one root at most.
+  constexpr double tolerance = 1e-11;
   long rays = 0, lost = 0, found = 0, open = 0;
   std::string worst = "none";
   visit_rays([&](const Leaf& leaf, const Net& net, const LocalRay& ray, dvec2 at, dvec2 local) {
@@ -109,5 +116,5 @@ TEST_CASE("Newton's method finds the root that a ray was aimed at, or leaves it 
   });
   INFO(rays << " rays, " << found << " found, " << open << " left open; " << worst);
   CHECK(lost == 0);
-  CHECK(found > rays * 8 / 10);
+  CHECK(found > rays / 2);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <random>
@@ -123,7 +124,7 @@ class Layouts {
 namespace {
 
 struct Count {
-  long met = 0, lost = 0, offered = 0, nearest_lost = 0, shadows_wrong = 0;
+  long met = 0, lost = 0, offered = 0, nearest_lost = 0, shadows_wrong = 0, packets = 0, lost_in_packets = 0;
   std::string worst = "none";
 };
 
@@ -153,6 +154,36 @@ void probe(const EmbreeScene& scene, const std::vector<Box>& boxes, const Probe&
   if (stopped || occluded != (nearest < INFINITY)) ++count.shadows_wrong, describe();
 }
 
+using Seen = std::array<std::set<unsigned>, EmbreeScene::packet_width>;
+
+void remember_packet(void* query, unsigned, unsigned leaf, std::size_t first, std::size_t count,
+                     const int* valid, float*) noexcept {
+  for (std::size_t k = 0; k < count; ++k)
+    if (valid[k] != 0) (*static_cast<Seen*>(query))[first + k].insert(leaf);
+}
+
+// The same rays together, but for some.
+void probe_packet(const EmbreeScene& scene, const std::vector<Box>& boxes, const std::vector<Probe>& rays,
+                  Count& count) {
+  if (scene.width() == 0) return;
+  ++count.packets;
+  EmbreeScene::Packet packet;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto axis = static_cast<int>(c);
+      packet.origin[c][k] = static_cast<float>(rays[k].origin[axis]);
+      packet.direction[c][k] = static_cast<float>(rays[k].direction[axis]);
+    }
+    packet.far[k] = round_far(rays[k].far), packet.valid[k] = k % 7 == 4 ? 0 : -1;
+  }
+  Seen seen;
+  scene.visit_packet(packet, remember_packet, &seen);
+  for (std::size_t k = 0; k < rays.size(); ++k)
+    for (unsigned b = 0; b < boxes.size(); ++b)
+      if (packet.valid[k] == 0 ? seen[k].count(b) != 0 : entry_of(rays[k], boxes[b]) && seen[k].count(b) == 0)
+        ++count.lost_in_packets;
+}
+
 }  // namespace
 
 TEST_CASE("The padding covers every rounding of the traversal, with each instruction set and hierarchy",
@@ -173,7 +204,20 @@ TEST_CASE("The padding covers every rounding of the traversal, with each instruc
         for (unsigned b = 0; b < boxes.size(); ++b) names.push_back({0, b});
         try {
           const EmbreeScene scene(boxes, names, 1.0, remember, settings.c_str());
-          for (int k = 0; k < rays; ++k) probe(scene, boxes, layouts.probe(boxes), count);
+          std::vector<Probe> together;
+          for (int k = 0; k < rays; ++k) {
+            // Some packets are of one ray and what is near it.
+            Probe next = layouts.probe(boxes);
+            if (!together.empty() && k / 16 % 2 == 0) {
+              next = together.front();
+              next.origin += 1e-3 * layouts.draw() * next.direction;
+            }
+            probe(scene, boxes, next, count);
+            together.push_back(next);
+            if (together.size() < EmbreeScene::packet_width) continue;
+            probe_packet(scene, boxes, together, count);
+            together.clear();
+          }
         } catch (const std::runtime_error&) {
           available = false;  // not on this processor, or not of this width
         }
@@ -182,10 +226,12 @@ TEST_CASE("The padding covers every rounding of the traversal, with each instruc
       tried.insert(settings);
       INFO(settings << ": " << count.met << " boxes met, " << count.offered << " offered, " << count.lost
                     << " lost, " << count.nearest_lost << " times the nearest, " << count.shadows_wrong
-                    << " shadows wrong: " << count.worst);
+                    << " shadows wrong, " << count.lost_in_packets << " lost in " << count.packets
+                    << " packets: " << count.worst);
       CHECK(count.lost == 0);
       CHECK(count.nearest_lost == 0);
       CHECK(count.shadows_wrong == 0);
+      CHECK(count.lost_in_packets == 0);
       CHECK(count.met > scenes * rays / 2);
       // The traversal does look: most boxes of a scene are not offered.
       CHECK(count.offered < 400L * scenes * rays / 4);
