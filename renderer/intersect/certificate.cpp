@@ -6,6 +6,8 @@
 #include "renderer/intersect/certified_ellipsoid.h"
 #include "renderer/intersect/certified_point.h"
 #include "renderer/intersect/certified_search.h"
+#include "renderer/intersect/certified_side.h"
+#include "renderer/intersect/short_ray.h"
 #include "renderer/intersect/slab.h"
 
 namespace rondure {
@@ -102,8 +104,9 @@ class Attempt {
     return Enclosure<T>::about(ray.length2(), 4 * roundoff<T> * ray.length2());
   }
 
+  // False: the hit is not shown to be one, not even to within rounding of its patch's side.
   bool locate() {
-    const Surface& surface = traced_[static_cast<std::size_t>(hit_.surface)].surface;
+    const auto& [surface, solver] = traced_[static_cast<std::size_t>(hit_.surface)];
     LocalRay local;
     if (!make_local_ray(ray_.origin, ray_.direction, surface.origin, local)) return false;
     const CertifiedRay<T> ray(ray_.origin, surface.origin, local);
@@ -114,23 +117,43 @@ class Attempt {
       const auto off = [&](const Enclosure<T>& t) {
         return std::abs(static_cast<T>(hit_.t) - (t.low + t.high) / 2);
       };
-      at_ = off(entering) <= off(leaving) ? entering : leaving;
+      const int side = off(entering) <= off(leaving) ? 0 : 1;
+      at_ = side == 0 ? entering : leaving;
       out_.exists = out_.unique = true;
-      point_radius_ = 0.0;
+      point_radius_ = distance_of(hit_.point - surface.origin, ray, roots.s[side]);
       return true;
     }
     const Net& net = surface.patches[static_cast<std::size_t>(hit_.patch)];
-    const Existence<T> root = prove_root(certified_piece(net, ray), dvec2(hit_.u, hit_.v));
+    const CertifiedPiece<T> piece = certified_piece(net, ray);
+    const Existence<T> root = prove_root(piece, dvec2(hit_.u, hit_.v));
     if (!root.exists) return false;
-    at_ = t_of(local, root.h / length2(ray));
+    if (!root.inside && !meets_within_rounding(net, piece, ray, solver, {hit_.u, hit_.v})) return false;
+    at_ = t_of(local, ldexp(root.h, piece.units.ratio()) / length2(ray));
     out_.exists = root.inside, out_.unique = true, out_.isolation = root.isolation;
     const double off =
         std::max({std::fabs(hit_.u - root.ball.at.x), std::fabs(hit_.v - root.ball.at.y)}) + root.ball.radius;
     point_radius_ = point_bound(net, {hit_.u, hit_.v}, off) +
-                    glm::length(hit_.point - surface.origin - net_point(net, hit_.u, hit_.v));
+                    length_of(hit_.point - surface.origin - net_point(net, hit_.u, hit_.v));
     return true;
   }
-  double point_radius_ = 0.0;
+  double point_radius_ = 0.0;  // of where the hit's point is in the surface's frame
+
+  static double length_of(const dvec3& x) { return std::hypot(x.x, x.y, x.z) * (1.0 + 0x1p-50); }
+
+  // Bound on that of a point from those at s on the ray.
+  static double distance_of(const dvec3& point, const CertifiedRay<T>& ray, const Enclosure<T>& s) {
+    const T middle = s.low + (s.high - s.low) / 2, reach = std::max(s.high - middle, middle - s.low);
+    T off[3], size = 0;
+    for (int k = 0; k < 3; ++k) {
+      const T step = middle * ray.direction()[k];
+      off[k] = static_cast<T>(point[k]) - (ray.base()[k] + step);
+      size = std::max(size, std::abs(ray.base()[k]) + std::abs(step));
+    }
+    const T rounding = 2 * ray.base_error() + 8 * roundoff<T> * size;
+    return static_cast<double>(std::hypot(off[0], off[1], off[2]) + reach * std::sqrt(ray.length2()) +
+                               rounding) *
+           (1.0 + 0x1p-50);
+  }
 
   // Also moves the root's bound down to where the first may be.
   bool nothing_earlier() {
@@ -169,14 +192,17 @@ class Attempt {
     const Enclosure<T> from_h = Enclosure<T>{from, from} * l2, until_h = Enclosure<T>{until, until} * l2;
     for (std::size_t j = 0; j < surface.patches.size(); ++j) {
       if (bounds_[k].patches[j] && !meets_box(local, inverse, *bounds_[k].patches[j])) continue;
-      EarlierSearch<T> search(from_h.low, until_h.high, limit_, std::is_same_v<T, double>);
-      const Earlier<T>& earlier = search.run(certified_piece(surface.patches[j], ray));
+      const CertifiedPiece<T> piece = certified_piece(surface.patches[j], ray);
+      const Enclosure<T> between = ldexp(Enclosure<T>{from_h.low, until_h.high}, -piece.units.ratio());
+      EarlierSearch<T> search(between.low, between.high, limit_, std::is_same_v<T, double>);
+      const Earlier<T>& earlier = search.run(piece);
       out_.pieces += earlier.pieces;
       if (!earlier.decided || earlier.possible) return false;
       if (earlier.least == std::numeric_limits<T>::infinity()) continue;
       // Of a miss, a root that may be at t_max is a root that may be.
-      if (!hit_ && !(earlier.least > until_h.high)) return false;
-      least_t = std::min(least_t, t_of(local, Enclosure<T>{earlier.least, earlier.least} / l2).low);
+      if (!hit_ && !(earlier.least > between.high)) return false;
+      const Enclosure<T> least = ldexp(Enclosure<T>{earlier.least, earlier.least}, piece.units.ratio());
+      least_t = std::min(least_t, t_of(local, least / l2).low);
     }
     return true;
   }
@@ -186,14 +212,6 @@ class Attempt {
     out_.t_error = static_cast<double>(std::max(t - at_.low, at_.high - t)) * (1.0 + 0x1p-50) + 0x1p-1074;
     // Beside what moved the point: the rounding of its place in the world.
     const Surface& surface = traced_[static_cast<std::size_t>(hit_.surface)].surface;
-    if (surface.ellipsoid) {
-      point_radius_ = out_.t_error * glm::length(ray_.direction) * (1.0 + 0x1p-50);
-      // Of a point beside the ray: its distance from the exact one is that from the ray's at t, and t's.
-      LocalRay local;
-      make_local_ray(ray_.origin, ray_.direction, surface.origin, local);
-      const dvec3 here = local.base + (hit_.t / local.scale - local.slide) * local.direction;
-      point_radius_ += glm::length(hit_.point - surface.origin - here) + 0x1p-50 * largest(here);
-    }
     out_.point_error = point_radius_ + 0x1p-50 * (largest(hit_.point) + largest(surface.origin) +
                                                   largest(hit_.point - surface.origin));
   }
@@ -209,9 +227,24 @@ Certifier::Certifier(const Tracer& tracer) {
 Certifier::~Certifier() = default;
 
 Certificate Certifier::certify(const Ray& ray, const Hit& hit) const {
-  const Certificate first = Attempt<double>(surfaces_->traced, surfaces_->bounds, ray, hit, quick).run();
+  // As the hit of a short ray was found (short_ray.h); there is no proof of ends and roots that are no
+  // doubles in longer steps.
+  const bool longer = is_short(ray);
+  const double step = longer ? longer_step : 1.0;
+  const Ray used = longer ? lengthened(ray) : ray;
+  Hit found = hit;
+  found.t /= step;
+  if (used.t_min * step != ray.t_min || used.t_max * step != ray.t_max || found.t * step != hit.t) return {};
+  const auto attempt = [&](auto zero, long limit) {
+    Certificate out = Attempt<decltype(zero)>(surfaces_->traced, surfaces_->bounds, used, found, limit).run();
+    out.t_error *= step;
+    // Somewhere is no place.
+    if (!(out.t_error < INFINITY && out.point_error < INFINITY)) out.means = Means::unresolved;
+    return out;
+  };
+  const Certificate first = attempt(0.0, quick);
   if (first.means == Means::interval) return first;
-  Certificate second = Attempt<long double>(surfaces_->traced, surfaces_->bounds, ray, hit, patient).run();
+  Certificate second = attempt(0.0L, patient);
   second.pieces += first.pieces;
   return second;
 }

@@ -9,8 +9,11 @@
 
 namespace rondure {
 
-// How the proof was done. `boundary`: the root is proven on the polynomials, but within rounding of a side of
-// its patch, so that rounding chose the owner among neighbours, and at the rim of an open surface the answer.
+// How the proof was done. `boundary`: the root is proven on the polynomials, but not on which side of a side
+// of its patch, so that rounding chose the owner among neighbours, and at the rim of an open surface the
+// answer; the patch's point at the hit's (u, v) is proven to be within rounding of the ray, which is to say
+// some 23 roundoffs of the patch's size, or 131 by `quadric`, and half an ulp of each parameter
+// (certified_side.h).
 enum class Means { interval, extended, boundary, unresolved };
 const char* name_of(Means means);
 

@@ -9,6 +9,7 @@
 
 #include "renderer/bezier/bernstein.h"
 #include "renderer/intersect/certified_ray.h"
+#include "renderer/intersect/enclosure.h"
 
 namespace rondure {
 
@@ -49,6 +50,15 @@ inline NetShape shape_of(const Net& net) {
   return {true, n, n};
 }
 
+// Powers of two that f, g and h, and w, are counted in, so that their sizes are 1: errors are then small for
+// all of them.
+struct CertifiedUnits {
+  int position = 0, weight = 0;
+
+  // Of h / w.
+  int ratio() const { return position - weight; }
+};
+
 // Local parameters (a, b) of the piece: [0, 1]^2, or a, b >= 0, a + b <= 1; (u, v) = origin + a along_a + b
 // along_b. The piece is exactly where these doubles say, as long as it is made by fewer than 50 halvings.
 template <class T>
@@ -56,6 +66,7 @@ struct CertifiedPiece {
   NetShape shape;
   std::vector<RayPoint<T>> c;
   T error = 0;  // of every f, g, h and w
+  CertifiedUnits units;
   dvec2 origin{0.0}, along_a{1.0, 0.0}, along_b{0.0, 1.0};
 
   dvec2 to_patch(dvec2 p) const { return origin + p.x * along_a + p.y * along_b; }
@@ -165,6 +176,15 @@ CertifiedPiece<T> certified_piece(const Net& net, const CertifiedRay<T>& ray) {
     out.c.push_back(ray(p));
     out.error = std::max(out.error, ray.error(p));
   }
+  // Not so far that the powers themselves leave the numbers.
+  const auto exponent = [](T size) { return size > 0 ? std::clamp(std::ilogb(size), -1000, 1000) : 0; };
+  const RayPoint<T> most = out.magnitude();
+  out.units = {exponent(std::max({most.f, most.g, most.h})), exponent(most.w)};
+  const T position = std::ldexp(T(1), -out.units.position), weight = std::ldexp(T(1), -out.units.weight);
+  for (RayPoint<T>& p : out.c) p = {position * p.f, position * p.g, position * p.h, weight * p.w};
+  // And a few of the least number, where what is rounded underflows.
+  constexpr T least = std::numeric_limits<T>::denorm_min();
+  out.error = position * (out.error + 16 * least) + least;
   return out;
 }
 

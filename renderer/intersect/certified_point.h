@@ -1,7 +1,7 @@
 // How far a patch's point, as evaluated in double, is from its exact point at parameters nearby.
 #pragma once
 
-#include <glm/geometric.hpp>
+#include <cmath>
 
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/certified_net.h"
@@ -13,19 +13,20 @@ namespace rondure {
 // ones, which the control points bound by 4 d^2 |X|. S(q) - S(p) = (X(q) - X(p) - S(p) (w(q) - w(p))) / w(q).
 // Infinite where the weight may vanish on the way.
 inline double point_bound(const Net& net, dvec2 at, double reach) {
+  const auto length = [](const dvec3& x) { return std::hypot(x.x, x.y, x.z); };
   double size = 0.0, weight = 0.0;
   for (const dvec4& p : points_of(net))
-    size = std::max(size, glm::length(dvec3(p))), weight = std::max(weight, std::fabs(p.w));
+    size = std::max(size, length(dvec3(p))), weight = std::max(weight, std::fabs(p.w));
   const NetShape shape = shape_of(net);
   const double d = shape.m + shape.n;
   // Of a sum over the basis, whose every function is a product of 2 d factors at most; twice that.
   const double rounding = 4.0 * (2.0 * d + 4.0) * roundoff<double>;
   const FirstOrder<dvec4> x = net_first(net, at.x, at.y);
   const dvec3 s = dvec3(x.value) / x.value.w;
-  const double both = size + glm::length(s) * weight;
+  const double both = size + length(s) * weight;
   // Derivatives are d times differences of such sums.
-  const double slope = glm::length(dvec3(x.du) - x.du.w * s) + glm::length(dvec3(x.dv) - x.dv.w * s) +
-                       4.0 * d * rounding * both;
+  const double slope =
+      length(dvec3(x.du) - x.du.w * s) + length(dvec3(x.dv) - x.dv.w * s) + 4.0 * d * rounding * both;
   const double bend = 2.0 * reach * reach * d * d;
   const double least_w = x.value.w - reach * (std::fabs(x.du.w) + std::fabs(x.dv.w)) -
                          (bend + rounding + 4.0 * reach * d * rounding) * weight;

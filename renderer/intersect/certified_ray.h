@@ -84,6 +84,15 @@ class CertifiedRay {
     return 2 * (roundoff<T> * (24 * x + 3 * most * w) + offset_error_ * w);
   }
 
+  // Bound on how far from the ray, times its weight, a point is whose f and g are within `error` of these:
+  // the length of its cross product with the direction, of which they are two components, over the
+  // direction's.
+  T distance(const RayPoint<T>& p, T error) const {
+    const int a = (big_ + 1) % 3, b = (big_ + 2) % 3;
+    const T third = (d_[a] * p.g - d_[b] * p.f) / d_[big_];
+    return (std::hypot(p.f, p.g, third) / std::sqrt(length2_) + 3 * error) * (1 + 16 * roundoff<T>);
+  }
+
   T length2() const { return length2_; }
   const T* base() const { return base_; }
   const T* direction() const { return d_; }
