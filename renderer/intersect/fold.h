@@ -40,7 +40,7 @@ FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval
     if (!(beyond(x) < reach) || !(beyond(y) < reach)) return {};
     at = along_graph(shape, f, axes, x, y);
     // The extremum enters the roots through h'^2 only: half of the digits suffice.
-    if (std::fabs(step) < 1e-7) break;
+    if (std::fabs(step) < 1e-9) break;
   }
   if (!(at.ddh * sign > 0.0)) return {};
 

@@ -38,16 +38,13 @@ Along along_graph(const Shape& shape, const dvec2* f, const Axes& axes, double x
   SecondOrder<dvec2> s = shape.second(f, axes.to_cell(x, y));
   Jet g = axes.jet(s, 0);
   double miss = quotient(g.value, g.y);  // no number where the graph is upright: what follows refuses that
-  // What is nearer than this, the first order reaches.
-  constexpr double near = 1e-9;
-  for (int k = 0; k < 4 && std::fabs(miss) > near; ++k) {
+  for (int k = 0; k < 4 && std::fabs(miss) > 1e-15; ++k) {
     y -= miss;
     s = shape.second(f, axes.to_cell(x, y));
     g = axes.jet(s, 0);
     miss = quotient(g.value, g.y);
   }
   const Jet h = axes.jet(s, 1);
-  if (std::fabs(miss) <= near) y -= miss;
   const double dy = quotient(-g.x, g.y), ddy = quotient(-(g.xx + dy * (2.0 * g.xy + dy * g.yy)), g.y);
   // To first order, the value on the graph itself.
   return {h.value - h.y * miss, h.x + h.y * dy, h.xx + dy * (2.0 * h.xy + dy * h.yy) + h.y * ddy, dy, miss};
