@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <stdexcept>
@@ -100,11 +101,24 @@ constexpr double leaves_apart = 4.0;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
+// A net whose weights are so small or large that products of two of their size would leave the numbers, in
+// units of its largest: a power of two, so that the surface and its points stay the same bits.
+void bring_near_one(Net& net) {
+  double most = 0.0;
+  for (const dvec4& p : points_of(net)) most = std::max(most, std::fabs(p.w));
+  if (!(most > 0.0 && std::isfinite(most)) || (most > 0x1p-100 && most < 0x1p100)) return;
+  const int exponent = std::ilogb(most);
+  for (dvec4& p : points_of(net))
+    for (int k = 0; k < 4; ++k) p[k] = std::ldexp(p[k], -exponent);
+}
+
 }  // namespace
 
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
   Implementation& self = *implementation_;
   self.surfaces = std::move(surfaces);
+  for (TracedSurface& traced : self.surfaces)
+    for (Net& net : traced.surface.patches) bring_near_one(net);
   const auto count = static_cast<unsigned>(self.surfaces.size());
   const std::vector<unsigned> twins = find_twins(self.surfaces);
   std::vector<unsigned> firsts, twin_counts(count);

@@ -120,4 +120,38 @@ TEST_CASE("Certificates do not depend on the unit of length", "[certificate]") {
   CHECK(misled == 0);
 }
 
+TEST_CASE("Neither hits nor certificates depend on the size of a net's weights", "[certificate]") {
+  long rays = 0, hits = 0, other = 0, lost = 0;
+  std::string worst = "none";
+  for (const char* type :
+       {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "gc_octahedron"})"})
+    for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
+      const Surface unit = build_family(type);
+      const Tracer tracer({{unit, solver}});
+      const Certifier certifier(tracer);
+      for (const int exponent : {-990, -700, -110, 110, 700, 990}) {
+        Surface surface = unit;
+        for (Net& net : surface.patches)
+          for (dvec4& p : points_of(net)) p = dvec4(scaled(dvec3(p), exponent), std::ldexp(p.w, exponent));
+        const Tracer scaled_tracer({{surface, solver}});
+        const Certifier of_scaled(scaled_tracer);
+        std::mt19937_64 random(23);
+        for (int k = 0; k < 20; ++k) {
+          const dvec3 from = 3.0 * random_direction(random);
+          const Ray ray{from, random_direction(random) - from};
+          const Hit hit = tracer.closest(ray), there = scaled_tracer.closest(ray);
+          ++rays, hits += static_cast<bool>(hit);
+          const auto describe = [&] { return fmt::format("{} times 2^{}, ray {}", type, exponent, k); };
+          if (hit.t != there.t || hit.point != there.point || hit.patch != there.patch)
+            ++other, worst = describe();
+          if (certifier.certify(ray, hit) && !of_scaled.certify(ray, there)) ++lost, worst = describe();
+        }
+      }
+    }
+  INFO(rays << " rays, " << other << " other hits, " << lost << " certificates lost: " << worst);
+  CHECK(other == 0);
+  CHECK(lost == 0);
+  CHECK(hits > rays / 2);
+}
+
 }  // namespace rondure
