@@ -13,8 +13,8 @@ namespace {
 
 // How even a leaf is to be (leaf_frame.h). Half of either costs twice the leaves and their memory, which
 // outweighs the steps and searches that it saves; twice of either costs as many of these.
-constexpr double straight_target = 0.15;
-constexpr double oblique_target = 0.16;
+constexpr double straight_target = 0.19;
+constexpr double oblique_target = 0.20;
 constexpr int weight_depth = 40;  // halvings after which a weight that is still not positive never will be
 
 RectangleCell enlarged(const RectangleCell& c) {

@@ -124,6 +124,22 @@ TEST_CASE("Of two grazing hits the one on a patch's edge counts as much as the o
   }
 }
 
+TEST_CASE("A ray that grazes two patches along their seam has both of its hits", "[hits]") {
+  // In the plane of the seam, at 0.07 degrees: both hits are at v = 0 of the one patch and u = 0 of the
+  // other, and a search that leaves that by its last bit finds one of them.
+  const Ray ray{dvec3(0.0, 4.0012492080025357, -0.99999921973937866), dvec3(0.0, -1.0, 0.0)};
+  const SphereReference exact = sphere_reference(ray.origin, ray.direction, dvec3(0.0), 1.0);
+  const char* family =
+      R"({"type": "sphere_tiling", "topology": "icosahedron_pairs", "corner_weights": "unit"})";
+  for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
+    const std::vector<Hit> hits = Tracer({{build_family(family), solver}}).all(ray);
+    REQUIRE(hits.size() == 2);
+    // As in sphere_hits_test: 8 ulps of the radius, over the cosine of incidence.
+    for (int k = 0; k < 2; ++k)
+      CHECK(std::fabs(hits[std::size_t(k)].t - exact.t[k]) < 8.0 * 0x1p-52 * (4.0 + 0.5 / exact.cosine));
+  }
+}
+
 TEST_CASE("A ray that skims a singular corner has its other hit too", "[hits]") {
   // It runs within rounding of the surface beside the corner, which takes a hundred candidates; the second
   // hit, 3e-5 radii on, comes after them.
