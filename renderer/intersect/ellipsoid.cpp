@@ -10,14 +10,6 @@
 namespace rondure {
 namespace {
 
-EllipsoidHit make_hit(const Ellipsoid& e, dvec3 on_sphere) {
-  on_sphere /= glm::length(on_sphere);
-  // Of a sphere the normal is exact in the surface's own axes: a rotation would only round it again.
-  if (e.uniform_radius > 0.0) return {e.uniform_radius * on_sphere, on_sphere};
-  return {e.linear * on_sphere,
-          glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
-}
-
 double frobenius(const dmat3& m) {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
@@ -92,10 +84,11 @@ Ellipsoid on_principal_axes(const dmat3& map) {
 dvec2 ellipsoid_parameters(const Ellipsoid& surface, const dvec3& point) noexcept {
   const dvec3 p = surface.turn * (surface.inverse * point);
   const double turn = std::atan2(p.y, p.x) / (2.0 * std::numbers::pi);
-  return {turn < 0.0 ? turn + 1.0 : turn, std::atan2(std::hypot(p.x, p.y), p.z) / std::numbers::pi};
+  return {turn < 0.0 ? turn + 1.0 : turn,
+          std::atan2(std::sqrt(p.x * p.x + p.y * p.y), p.z) / std::numbers::pi};
 }
 
-int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept {
+std::optional<EllipsoidPassage> meet_ellipsoid(const Ellipsoid& surface, const LocalRay& ray) noexcept {
   const bool uniform = surface.uniform_radius > 0.0;
   const dvec3 origin = uniform ? ray.base / surface.uniform_radius : surface.inverse * ray.base;
   const dvec3 direction = uniform ? ray.direction / surface.uniform_radius : surface.inverse * ray.direction;
@@ -106,11 +99,17 @@ int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, Ellipsoid
   // Where the unit sphere's space is stretched, rounding left it off the middle by as much.
   if (!uniform) nearest -= (glm::dot(nearest, direction) / length2) * direction;
   const double impact = glm::length(nearest);
-  if (!(impact <= 1.0)) return 0;
-  const double half = std::sqrt((1.0 - impact) * (1.0 + impact) / length2);
-  hits[0] = make_hit(surface, nearest - half * direction);
-  hits[1] = make_hit(surface, nearest + half * direction);
-  return 2;
+  if (!(impact <= 1.0)) return std::nullopt;
+  return EllipsoidPassage{nearest, std::sqrt((1.0 - impact) * (1.0 + impact) / length2) * direction};
+}
+
+EllipsoidHit ellipsoid_hit(const Ellipsoid& e, const EllipsoidPassage& chord, int side) noexcept {
+  dvec3 on_sphere = side < 0 ? chord.middle - chord.half : chord.middle + chord.half;
+  on_sphere /= glm::length(on_sphere);
+  // Of a sphere the normal is exact in the surface's own axes: a rotation would only round it again.
+  if (e.uniform_radius > 0.0) return {e.uniform_radius * on_sphere, on_sphere};
+  return {e.linear * on_sphere,
+          glm::normalize(on_sphere * e.inverse)};  // row vector times inverse: the inverse transpose
 }
 
 }  // namespace rondure

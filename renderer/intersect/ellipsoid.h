@@ -2,6 +2,8 @@
 // patches are compared with.
 #pragma once
 
+#include <optional>
+
 #include "renderer/intersect/root.h"
 
 namespace rondure {
@@ -31,8 +33,14 @@ struct EllipsoidHit {
   dvec3 normal;  // unit, outward
 };
 
-// Number of roots (0 or 2), entering first. Roots coincide for a tangential ray.
-int intersect_ellipsoid(const Ellipsoid& surface, const LocalRay& ray, EllipsoidHit hits[2]) noexcept;
+// What of the ray is inside, in the unit sphere's space: from middle - half to middle + half. Nothing when it
+// misses; of no length where it is tangential.
+struct EllipsoidPassage {
+  dvec3 middle, half;
+};
+std::optional<EllipsoidPassage> meet_ellipsoid(const Ellipsoid& surface, const LocalRay& ray) noexcept;
+// Side -1: where it enters, 1: where it leaves.
+EllipsoidHit ellipsoid_hit(const Ellipsoid& surface, const EllipsoidPassage& chord, int side) noexcept;
 
 // Longitude / 2 pi from +x towards +y, and colatitude / pi from +z, of the point's pre-image on the unit
 // sphere.

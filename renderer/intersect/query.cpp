@@ -75,13 +75,16 @@ bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, con
 }
 
 bool visit_ellipsoid(Query& q, unsigned surface, const Ellipsoid& ellipsoid, float& far) {
-  EllipsoidHit hits[2];
-  const int count = intersect_ellipsoid(ellipsoid, q.local, hits);
-  for (int k = 0; k < count; ++k) {
-    const double error = ellipsoid_error(ellipsoid);
-    const Crossing c = make_crossing(q.local, hits[k].point, hits[k].normal, error, ellipsoid.extent, false);
-    const auto normal = [&] { return hits[k].normal; };
-    if (take(q, surface, 0, dvec2(0.0), hits[k].point, normal, c, far)) return true;
+  const auto chord = meet_ellipsoid(ellipsoid, q.local);
+  if (!chord) return false;
+  const double error = ellipsoid_error(ellipsoid);
+  for (const int side : {-1, 1}) {
+    const EllipsoidHit hit = ellipsoid_hit(ellipsoid, *chord, side);
+    const Crossing c = make_crossing(q.local, hit.point, hit.normal, error, ellipsoid.extent, false);
+    const auto normal = [&] { return hit.normal; };
+    if (take(q, surface, 0, dvec2(0.0), hit.point, normal, c, far)) return true;
+    // Where this is the nearest, the other is not.
+    if (q.mode == Mode::closest && q.best.surface == static_cast<int>(surface)) break;
   }
   return false;
 }
