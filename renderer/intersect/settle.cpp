@@ -129,8 +129,11 @@ bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
 
 bool settle(const Net& net, const NetScale& scale, const LocalRay& ray, Root& root) noexcept {
   const double bound = settled_bound(scale, ray);
-  if (std::holds_alternative<TensorNet>(net)) return settle_in<TensorShape>(net, bound, ray, root);
-  return settle_in<TriangleShape>(net, bound, ray, root);
+  const bool settled = std::holds_alternative<TensorNet>(net)
+                           ? settle_in<TensorShape>(net, bound, ray, root)
+                           : settle_in<TriangleShape>(net, bound, ray, root);
+  // Beside a control point of next to no weight the point's own may underflow: it then has no place in space.
+  return settled && net_first(net, root.u, root.v).value.w > 0.0;
 }
 
 }  // namespace rondure

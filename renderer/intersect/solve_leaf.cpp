@@ -39,6 +39,7 @@ struct Place {
 };
 Place place_of(const Leaf& leaf, const Net& net, const LocalRay& ray, const Root& root) {
   const FirstOrder<dvec4> at = net_first(net, root.u, root.v);
+  if (!(at.value.w > 0.0)) return {INFINITY, 0.0, INFINITY};  // underflowed: no place in space
   const dvec3 point = dvec3(at.value) / at.value.w;
   const double error = settled_bound(leaf.scale, ray) / at.value.w, extent = leaf.scale.position / at.value.w;
   const dvec2 f = project(ray, at.value);
