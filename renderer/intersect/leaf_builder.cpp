@@ -16,6 +16,9 @@ namespace {
 constexpr double straight_target = 0.19;
 constexpr double oblique_target = 0.20;
 constexpr int weight_depth = 40;  // halvings after which a weight that is still not positive never will be
+// Cells that a patch may be divided into beyond its depth until their weights are positive. Beside a zero of
+// the weight there are some at each halving; where the weight all but vanishes along a curve, without end.
+constexpr int most_beyond_depth = 1 << 16;
 
 RectangleCell enlarged(const RectangleCell& c) {
   const dvec2 middle = 0.5 * (c.low + c.high);
@@ -89,7 +92,7 @@ class Builder {
       }
       uneven = halvings_left(evenness);
     }
-    if (depth >= weight_depth)
+    if (depth >= weight_depth || (depth >= depth_ && ++beyond_depth_ > most_beyond_depth))
       throw std::runtime_error(
           fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), however "
                       "finely the patch is divided, so that it cannot be bounded",
@@ -117,6 +120,7 @@ class Builder {
   std::vector<dvec4> points_, inner_;
   Restriction& restrict_;
   bool some_tame_ = false;
+  int beyond_depth_ = 0;  // cells divided there
 
   // Unevenness halves with the leaf's size at best, for which each parameter must be halved; to be safe, only
   // what is far too uneven goes unexamined.

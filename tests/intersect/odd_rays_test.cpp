@@ -178,6 +178,17 @@ TEST_CASE("Nets that cannot be bounded are refused by object and patch", "[hits]
   surface.patches.push_back(net);
   CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}),
                     Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
+  // The weight (u - v)^2 + 10^-12 is positive, but no cell on its diagonal shows that before some 10^6 are
+  // left there: that must not take the memory of the machine.
+  TensorNet grooved(2, 2);
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; j <= 2; ++j) {
+      const double w = (i == 2 ? 1.0 : 0.0) - 0.5 * i * j + (j == 2 ? 1.0 : 0.0) + 1e-12;
+      grooved.at(i, j) = dvec4(0.5 * i, 0.5 * j, 0.0, w);
+    }
+  surface.patches[0] = grooved;
+  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}),
+                    Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
   net.points[3].w = 1.0;
   net.points[2].x = no_number;
   surface.patches[0] = net;
