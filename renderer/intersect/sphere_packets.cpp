@@ -39,47 +39,47 @@ HWY_INLINE unsigned bits_of(M mask) {
   hn::StoreMaskBits(D(), mask, bytes);
   return bytes[0];
 }
-HWY_INLINE M mask_of(unsigned bits) {
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-  return hn::LoadMaskBits(D(), bytes);
-}
 
-// What the cells and patches of a group's hits say.
+// What the cells of a group's hits say.
 struct Held {
   const SphereCell* cells[lane_count];
-  const SpherePatch* patches[lane_count];
-  std::int32_t owners[lane_count];
-  unsigned owned = 0, several = 0;  // lanes of which a patch is known there; another, too
+  alignas(64) std::int64_t owners[lane_count];  // 0 where none is known
+  M owned, several;                             // a patch is known there; another may be, too
 };
 
-HWY_INLINE void hold(const SpherePatches& all, std::size_t k, std::size_t which, Held& held) {
-  const SphereCell& cell = all.cells[which];
-  held.cells[k] = &cell, held.owners[k] = std::max(cell.owner, 0);
-  held.patches[k] = &all.patches[static_cast<std::size_t>(held.owners[k])];
-  const unsigned bit = 1u << k;
-  held.owned = cell.owner < 0 ? held.owned & ~bit : held.owned | bit;
-  held.several = cell.next < 0 ? held.several & ~bit : held.several | bit;
-}
-
 HWY_INLINE void fetch(const SpherePatches& all, const Group& g, Held& held) {
-  for (std::size_t k = 0; k < lane_count; ++k) hold(all, k, static_cast<std::size_t>(g.cell[k]), held);
+  for (std::size_t k = 0; k < lane_count; ++k) {
+    held.cells[k] = &all.cells[static_cast<std::size_t>(g.cell[k])];
+    const char* const bytes = reinterpret_cast<const char*>(held.cells[k]);
+    __builtin_prefetch(bytes), __builtin_prefetch(bytes + 64);
+  }
 }
 
-// As SphereCell::start_at: pairs of floats, u and v, in the place of doubles.
-HWY_INLINE void start(const Held& held, const Group& g, V& u, V& v) {
+static_assert(offsetof(SphereCell, start) == 0 && offsetof(SphereCell, owner) == 80 &&
+              offsetof(SphereCell, next) == 88 && sizeof(SphereCell) == 96);
+
+// As SphereCell::start_at: pairs of floats, u and v, in the place of doubles. And what else the cells say.
+HWY_INLINE void start(const Group& g, Held& held, V& u, V& v) {
   const D d;
   const hn::Repartition<float, D> pairs;
   const hn::Rebind<float, D> df;
+  const hn::RebindToSigned<D> di;
   const hn::RebindToUnsigned<D> du;
   const hn::Rebind<std::uint32_t, D> du32;
   const double* rows[lane_count];
-  V numbers[8], more[4];
+  V numbers[12];
   for (std::size_t k = 0; k < lane_count; ++k)
     rows[k] = reinterpret_cast<const double*>(held.cells[k]->start);
   columns_of<8>(d, rows, numbers);
-  for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 6;
-  columns_of<4>(d, rows, more);
-  const auto f = [&](int k) HWY_ATTR { return hn::BitCast(pairs, k < 8 ? numbers[k] : more[k - 6]); };
+  for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 8;
+  columns_of<4>(d, rows, numbers + 8);
+  // Whole numbers of 32 bits, of which these come first in their places.
+  const auto owner = hn::ShiftLeft<32>(hn::BitCast(di, numbers[10])),
+             next = hn::ShiftLeft<32>(hn::BitCast(di, numbers[11])), none = hn::Zero(di);
+  held.owned = hn::RebindMask(d, hn::Not(hn::Lt(owner, none)));
+  held.several = hn::RebindMask(d, hn::Not(hn::Lt(next, none)));
+  hn::Store(hn::ShiftRight<32>(hn::Max(owner, none)), di, held.owners);
+  const auto f = [&](int k) HWY_ATTR { return hn::BitCast(pairs, numbers[k]); };
   const auto twice = [&](V x) HWY_ATTR {
     const auto bits = hn::PromoteTo(du, hn::BitCast(du32, hn::DemoteTo(df, x)));
     return hn::BitCast(pairs, hn::Or(bits, hn::ShiftLeft<32>(bits)));
@@ -102,34 +102,36 @@ HWY_INLINE M inside(const dvec2& middle, bool triangle, V u, V v) {
 
 // As cell_around. Lanes that it cannot tell of are not in what is returned.
 HWY_INLINE M start_around(const SpherePatches& all, const Group& g, Held& held, V& u, V& v) {
+  const D d;
   const bool triangle = all.patches[0].triangle;
   for (;;) {
-    start(held, g, u, v);
-    if (held.several == 0) return g.hit;
-    if (!all.one_kind) return hn::Not(mask_of(held.several));
+    start(g, held, u, v);
+    if (!all.one_kind) return hn::Not(held.several);
     const M here = inside(all.inverses[0].middle, triangle, u, v);
-    unsigned astray = held.several & bits_of(hn::AndNot(here, g.hit));
+    unsigned astray = bits_of(hn::And(held.several, hn::AndNot(here, g.hit)));
     if (astray == 0) return g.hit;
     for (; astray != 0; astray &= astray - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(astray));
-      hold(all, k, static_cast<std::size_t>(held.cells[k]->next), held);
+      const SphereCell*& cell = held.cells[std::countr_zero(astray)];
+      cell = &all.cells[static_cast<std::size_t>(cell->next)];
     }
   }
 }
 
 // The points in their patches' frames; z less 1.
-HWY_INLINE void turn_to_patches(const Held& held, const V* n, V& x, V& y, V& w) {
+HWY_INLINE void turn_to_patches(const SpherePatches& all, const Held& held, const V* n, V& x, V& y, V& w) {
   const D d;
   const Lift<D> lift;
   V m[3][4];
-  bool one_patch = true;
-  for (std::size_t k = 1; k < lane_count; ++k) one_patch = one_patch && held.patches[k] == held.patches[0];
-  if (one_patch) {
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) m[i][k] = lift(held.patches[0]->axes[i][k]);
+  if (lane_count == SpherePatches::few && all.patches.size() <= SpherePatches::few) {
+    // All in a register, each lane picking its own.
+    const auto which = hn::SetTableIndices(d, held.owners);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        m[i][k] = hn::TableLookupLanes(hn::Load(d, all.axes_of_few[3 * i + k].data()), which);
   } else {
     const double* rows[lane_count];
-    for (std::size_t k = 0; k < lane_count; ++k) rows[k] = &held.patches[k]->axes[0].x;
+    for (std::size_t k = 0; k < lane_count; ++k)
+      rows[k] = &all.patches[static_cast<std::size_t>(held.owners[k])].axes[0].x;
     columns_of<8>(d, rows, &m[0][0]);
     for (std::size_t k = 0; k < lane_count; ++k) rows[k] += 8;
     columns_of<4>(d, rows, m[2]);
@@ -168,17 +170,21 @@ HWY_INLINE void place(const SpherePatches& patches, Held& held, Group& g, V& out
   const V zero = lift(0.0), one = lift(1.0);
   V u, v, x, y, w;
   const M clear = start_around(patches, g, held, u, v);
-  turn_to_patches(held, g.point, x, y, w);
-  M pending = hn::And(hn::And(g.hit, clear), mask_of(held.owned)), placed = hn::Lt(one, zero);
+  turn_to_patches(patches, held, g.point, x, y, w);
+  M pending = hn::And(hn::And(g.hit, clear), held.owned), placed = hn::Lt(one, zero);
   out_u = out_v = zero;
   // Patches are mostly congruent; where not, one inverse after the other.
   const bool congruent = patches.inverses.size() == 1;
   while (!hn::AllFalse(d, pending)) {
-    const std::int32_t which = held.patches[hn::FindFirstTrue(d, pending)]->inverse;
+    const auto inverse_of = [&](std::size_t k) {
+      return patches.patches[static_cast<std::size_t>(held.owners[k])].inverse;
+    };
+    const std::int32_t which =
+        congruent ? 0 : inverse_of(static_cast<std::size_t>(hn::FindFirstTrue(d, pending)));
     M these = pending;
     if (!congruent) {
       alignas(64) double mine[lane_count];
-      for (std::size_t k = 0; k < lane_count; ++k) mine[k] = held.patches[k]->inverse == which ? 1.0 : 0.0;
+      for (std::size_t k = 0; k < lane_count; ++k) mine[k] = inverse_of(k) == which ? 1.0 : 0.0;
       these = hn::And(these, hn::Eq(hn::Load(d, mine), one));
     }
     pending = hn::AndNot(these, pending);
@@ -206,22 +212,34 @@ HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group
   const Lift<D> lift;
   const hn::RebindToSigned<D> di;
   const V zero = lift(0.0);
-  const unsigned known = bits_of(g.known), hit = bits_of(g.hit);
+  const PatchedSphere& sphere = *target.sphere;
+  const unsigned known = bits_of(g.known);
   double* to[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) {
     const bool mine = k < count && (known >> k & 1u) != 0 && rays[k].start.surface != target.surface;
     to[k] = mine ? &hits[k].t : nullptr;
     if (k < count) done[k] = mine ? 1 : 0;
   }
-  V side = lift(target.sphere->outward);
-  if (target.sphere->outward == 0.0) {
+  V side = lift(sphere.outward);
+  if (sphere.outward == 0.0) {
     alignas(64) double outward[lane_count];
-    for (std::size_t k = 0; k < lane_count; ++k) outward[k] = held.patches[k]->outward;
+    for (std::size_t k = 0; k < lane_count; ++k)
+      outward[k] = sphere.patches->patches[static_cast<std::size_t>(held.owners[k])].outward;
     side = hn::Load(d, outward);
   }
-  const dvec3 &frame = target.frame, &center = target.sphere->center;
-  const V radius = lift(target.radius), nobody = hn::BitCast(d, hn::Set(di, std::int64_t{-1}));
-  V numbers[11] = {g.t, g.t_error, nobody, u, v};
+  // Surface and patch share a number's place.
+  auto patch = hn::Load(di, held.owners) + hn::Set(di, std::int64_t{sphere.first});
+  if (sphere.named) {
+    alignas(64) std::int64_t names[lane_count];
+    for (std::size_t k = 0; k < lane_count; ++k)
+      names[k] = sphere.names[static_cast<std::size_t>(held.owners[k])];
+    patch = hn::Load(di, names);
+  }
+  const V name = hn::BitCast(d, hn::Or(hn::ShiftLeft<32>(patch), hn::Set(di, std::int64_t{target.surface}))),
+          nobody = hn::BitCast(d, hn::Set(di, std::int64_t{-1}));
+  const dvec3 &frame = target.frame, &center = sphere.center;
+  const V radius = lift(target.radius);
+  V numbers[11] = {g.t, g.t_error, name, u, v};
   for (int k = 0; k < 3; ++k) {
     numbers[5 + k] = lift(frame[k]) + (lift(center[k]) + radius * g.point[k]);
     numbers[8 + k] = side * g.point[k];
@@ -232,9 +250,6 @@ HWY_INLINE void unload(const SphereTarget& target, const Held& held, const Group
   for (double*& row : to)
     if (row) row += 7;
   rows_of<4>(d, numbers + 7, to);
-  for (std::size_t k = 0; k < lane_count; ++k)
-    if (to[k] && (hit >> k & 1u) != 0)
-      hits[k].surface = target.surface, hits[k].patch = target.sphere->name_of(held.owners[k]);
 }
 
 HWY_INLINE void unload_misses(const SphereTarget& target, const Group& g, const Ray* rays, std::size_t count,

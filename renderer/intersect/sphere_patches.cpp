@@ -136,6 +136,10 @@ bool build_sphere_patches(const std::vector<Net>& nets, double rounding, int cel
     out.patches.push_back(patch);
     out.one_kind = out.one_kind && patch.triangle == out.patches[0].triangle;
   }
+  for (std::size_t p = 0; p < std::min(nets.size(), SpherePatches::few); ++p)
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        out.axes_of_few[static_cast<std::size_t>(3 * i + k)][p] = out.patches[p].axes[i][k];
   out.cells_a_side = cells_a_side;
   fill_sphere_cells(nets, out);
   return true;

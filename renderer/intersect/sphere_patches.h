@@ -72,12 +72,15 @@ struct SphereCandidate {
 };
 
 struct SpherePatches {
+  static constexpr std::size_t few = 8;  // so many patches that each has a lane of a register
   std::vector<PatchInverse> inverses;
   std::vector<SpherePatch> patches;  // in the order of their nets
   bool one_kind = true;              // all triangles, or none
   int cells_a_side = 0;
   std::vector<SphereCell> cells;  // [(face * side + row) * side + column], then those that others call next
   std::vector<SphereCandidate> candidates;
+  // axes_of_few[3 i + k][p] is axes[i][k] of patch p, where there are no more.
+  alignas(64) std::array<std::array<double, few>, 9> axes_of_few{};
 
   std::size_t bytes() const {
     return sizeof(SpherePatches) + inverses.size() * sizeof(PatchInverse) +
