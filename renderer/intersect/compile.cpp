@@ -32,8 +32,9 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
   compiled.closed = surface.closed;
   compiled.solver = traced.solver;
   if (surface.ellipsoid) {
-    compiled.ellipsoid = on_principal_axes(*surface.ellipsoid);
-    const dmat3 rows = glm::transpose(compiled.ellipsoid->linear);
+    compiled.analytic =
+        std::make_unique<const PatchedSphere>(without_patches(on_principal_axes(*surface.ellipsoid)));
+    const dmat3 rows = glm::transpose(compiled.analytic->ellipsoid.linear);
     const dvec3 half(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
     compiled.set.boxes = {Box{-half, half}};
   } else {

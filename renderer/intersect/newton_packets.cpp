@@ -320,7 +320,7 @@ HWY_EXPORT(closest_wide);
 
 bool can_meet_packets(const PlacedSurface& surface) {
   const CompiledSurface& compiled = *surface.compiled;
-  return compiled.solver == Solver::newton && !surface.sphere && !compiled.ellipsoid && !compiled.hierarchy &&
+  return compiled.solver == Solver::newton && !surface.sphere && !compiled.analytic && !compiled.hierarchy &&
          compiled.spheres.empty() && compiled.radial.empty();
 }
 

@@ -82,7 +82,7 @@ std::vector<Draft> drafts_of(const std::vector<Net>& nets, std::size_t surface) 
     sphere.center = fit.center, sphere.ellipsoid = Ellipsoid(fit.linear);
     sphere.error = ellipsoid_error(sphere.ellipsoid) + fit.off * sphere.ellipsoid.extent;
     // The square of its radius must be a number, too.
-    if (const double r = sphere.ellipsoid.uniform_radius; r > 1e-100 && r < 1e100)
+    if (const double r = sphere.ellipsoid.uniform_radius; r > smallest_radius && r < largest_radius)
       sphere.radius = r, sphere.inverse_radius = 1.0 / r;
     sphere.first = static_cast<std::int32_t>(draft.which.front());
     if (draft.which.back() - draft.which.front() + 1 != draft.which.size())

@@ -264,10 +264,13 @@ bool nearer(const Hit& a, const Hit& b) {
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
   const CompiledSurface& compiled = *q.surfaces[surface].compiled;
-  if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves && !compiled.ellipsoid)
+  if (const PatchedSphere* sphere = compiled.analytic.get()) {
+    if (sphere->radius > 0.0) return visit_sphere(q, surface, *sphere, far);
+    return localise(q, surface) && visit_ellipsoid(q, surface, sphere->ellipsoid, far);
+  }
+  if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves)
     return visit_sphere(q, surface, compiled.spheres[leaf - leaves], far);
   if (!localise(q, surface)) return false;
-  if (compiled.ellipsoid) return visit_ellipsoid(q, surface, *compiled.ellipsoid, far);
   return visit_net(q, surface, leaf, far);
 }
 
@@ -282,11 +285,10 @@ bool visit_by_name(void* pointer, unsigned surface, unsigned leaf, float& far) n
   return leaf == LeafName::whole ? visit_instance(q, surface, far) : visit_leaf(q, surface, leaf, far);
 }
 
-void finish(const Query& q, Hit& hit) {
-  const auto index = static_cast<std::size_t>(hit.surface);
-  const CompiledSurface& surface = *q.surfaces[index].compiled;
-  if (!surface.ellipsoid) return;
-  const dvec2 p = ellipsoid_parameters(*surface.ellipsoid, hit.point - q.surfaces[index].origin);
+void finish(const PlacedSurface& surface, Hit& hit) {
+  const PatchedSphere* const analytic = surface.compiled->analytic.get();
+  if (!analytic) return;
+  const dvec2 p = ellipsoid_parameters(analytic->ellipsoid, hit.point - surface.origin);
   hit.u = p.x, hit.v = p.y;
 }
 

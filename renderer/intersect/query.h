@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,11 +23,17 @@ struct CompiledSurface {
   bool closed = false;
   std::vector<RadialPiece> radial;         // of the last leaves
   std::span<const PatchedSphere> spheres;  // of the boxes after all leaves
-  std::optional<Ellipsoid> ellipsoid;
+  // The surface itself, in place of patches; a sphere where that has a radius.
+  std::unique_ptr<const PatchedSphere> analytic;
   std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
   const std::vector<Net>* nets = nullptr;
   std::vector<NewtonPatch> patches;  // of the nets, where there are leaves
   Solver solver = Solver::newton;
+
+  // The one sphere or ellipsoid that is all.
+  const PatchedSphere* lone_sphere() const {
+    return analytic ? analytic.get() : set.boxes.size() == 1 && spheres.size() == 1 ? &spheres[0] : nullptr;
+  }
 };
 
 // Throws std::runtime_error where a net cannot be bounded. `max_depth`: halvings of a patch. `found`: what
@@ -78,6 +83,6 @@ bool visit_by_name(void* query, unsigned surface, unsigned leaf, float& far) noe
 bool visit_shared_leaf(void* query, unsigned, unsigned leaf, float& far) noexcept;
 
 // What only a hit that is reported needs: the parameters of an analytic surface.
-void finish(const Query& query, Hit& hit);
+void finish(const PlacedSurface& surface, Hit& hit);
 
 }  // namespace rondure

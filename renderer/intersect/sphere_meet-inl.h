@@ -18,10 +18,29 @@ struct Group {
 static_assert(offsetof(Ray, origin) == 0 && offsetof(Ray, direction) == 3 * sizeof(double) &&
               offsetof(Ray, t_min) == 6 * sizeof(double) && offsetof(Ray, t_max) == 7 * sizeof(double));
 
+// As cell_at.
+HWY_INLINE void find_cells(const SpherePatches& patches, Group& g) {
+  const hn::RebindToSigned<D> di;
+  const Lift<D> lift;
+  const V zero = lift(0.0), one = lift(1.0), x = g.point[0], y = g.point[1], z = g.point[2];
+  const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
+  const M z_leads = hn::Gt(az, hn::Max(ax, ay)), y_leads = hn::Gt(ay, ax);
+  const auto chosen = [&](V p, V q, V r)
+                          HWY_ATTR { return hn::IfThenElse(z_leads, r, hn::IfThenElse(y_leads, q, p)); };
+  const V major = chosen(x, y, z), second = chosen(y, z, x), third = chosen(z, x, y);
+  const V side = lift(patches.cells_a_side), middle = lift(0.5 * patches.cells_a_side),
+          cells = lift(cells_per_reach * patches.cells_a_side);
+  const V face = chosen(zero, lift(2.0), lift(4.0)) + hn::IfThenElseZero(hn::Lt(major, zero), one);
+  const V p = second * cells + middle, q = third * cells + middle, row = hn::Floor(p), column = hn::Floor(q);
+  // Lanes without a hit hold anything: any cell will do.
+  const V index = hn::IfThenElseZero(g.hit, (face * side + row) * side + column);
+  hn::Store(hn::ConvertTo(di, index), di, g.cell);
+  g.a = lift(2.0) * (p - row) - one, g.b = lift(2.0) * (q - column) - one;
+}
+
 // From the rays to points of the sphere and their cells. False when no lane has a hit.
 HWY_INLINE bool meet(const SphereTarget& target, const double* const* rays, Group& g) {
   const D d;
-  const hn::RebindToSigned<D> di;
   const Lift<D> lift;
   const V zero = lift(0.0), one = lift(1.0);
   V ray[8];
@@ -64,21 +83,7 @@ HWY_INLINE bool meet(const SphereTarget& target, const double* const* rays, Grou
   x = shrink * from[0] + s * (shrink * dx), y = shrink * from[1] + s * (shrink * dy);
   z = shrink * from[2] + s * (shrink * dz);
 
-  // As cell_at.
-  const SpherePatches& patches = *target.sphere->patches;
-  const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-  const M z_leads = hn::Gt(az, hn::Max(ax, ay)), y_leads = hn::Gt(ay, ax);
-  const auto chosen = [&](V p, V q, V r)
-                          HWY_ATTR { return hn::IfThenElse(z_leads, r, hn::IfThenElse(y_leads, q, p)); };
-  const V major = chosen(x, y, z), second = chosen(y, z, x), third = chosen(z, x, y);
-  const V side = lift(patches.cells_a_side), middle = lift(0.5 * patches.cells_a_side),
-          cells = lift(cells_per_reach * patches.cells_a_side);
-  const V face = chosen(zero, lift(2.0), lift(4.0)) + hn::IfThenElseZero(hn::Lt(major, zero), one);
-  const V p = second * cells + middle, q = third * cells + middle, row = hn::Floor(p), column = hn::Floor(q);
-  // Lanes without a hit hold anything: any cell will do.
-  const V index = hn::IfThenElseZero(g.hit, (face * side + row) * side + column);
-  hn::Store(hn::ConvertTo(di, index), di, g.cell);
-  g.a = lift(2.0) * (p - row) - one, g.b = lift(2.0) * (q - column) - one;
+  if (target.sphere->patches) find_cells(*target.sphere->patches, g);
   settle_point(x, y, z, lift);
   return true;
 }

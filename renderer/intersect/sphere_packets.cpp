@@ -267,7 +267,7 @@ void closest_wide(const SphereTarget& target, const Ray* rays, std::size_t count
   constexpr std::size_t groups = 2;
   Group group[groups];
   Held held[groups];
-  const SpherePatches& patches = *target.sphere->patches;
+  const SpherePatches* const patches = target.sphere->patches.get();
   for (std::size_t first = 0; first < count; first += groups * lane_count) {
     // Those after these: callers mostly go through an array, a packet at a time.
     const auto next = reinterpret_cast<std::uintptr_t>(rays + first) + 2 * groups * lane_count * sizeof(Ray);
@@ -283,15 +283,18 @@ void closest_wide(const SphereTarget& target, const Ray* rays, std::size_t count
       hit[g] = meet(target, in, group[g]);
     }
     for (std::size_t g = 0; g < used; ++g)
-      if (hit[g]) fetch(patches, group[g], held[g]);
+      if (hit[g] && patches) fetch(*patches, group[g], held[g]);
     for (std::size_t g = 0; g < used; ++g) {
       const std::size_t at = begin(g), size = begin(g + 1) - at;
       if (!hit[g]) {
         unload_misses(target, group[g], rays + at, size, hits + at, done + at);
         continue;
       }
-      V u, v;
-      place(patches, held[g], group[g], u, v);
+      V u = hn::Zero(D()), v = u;
+      if (patches)
+        place(*patches, held[g], group[g], u, v);
+      else
+        hn::Store(hn::Zero(hn::RebindToSigned<D>()), hn::RebindToSigned<D>(), held[g].owners);
       unload(target, held[g], group[g], u, v, rays + at, size, hits + at, done + at);
     }
   }

@@ -14,7 +14,8 @@
 
 namespace rondure {
 
-// Sets hits[k], and done[k] to 1; or leaves the hit alone and sets done[k] to 0. Any count.
+// Sets hits[k], and done[k] to 1; or leaves the hit alone and sets done[k] to 0. Any count. Parameters on a
+// sphere without patches are left to `finish` (query.h).
 void closest_on_sphere(const SphereTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        unsigned char* done) noexcept;
 

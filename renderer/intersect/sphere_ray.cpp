@@ -79,7 +79,8 @@ HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, double far
   // As sphere_point.
   const Triple shrink(target.inverse_radius);
   const Triple rough = shrink * from + Triple(enters ? enter : leave) * (shrink * d);
-  out.cell = cell_at(target.sphere->to_patches(rough.vector()), target.sphere->patches->cells_a_side);
+  if (const SpherePatches* patches = target.sphere->patches.get())
+    out.cell = cell_at(target.sphere->to_patches(rough.vector()), patches->cells_a_side);
   const double off = (1.0 - dot(rough, rough)) * 0.5;
   out.point = (rough + Triple(off) * rough).vector();
   out.t_error = 2.0 * (target.stretch * inverse_length2 / half) + 0x1p-52 * std::fabs(out.t);
@@ -105,19 +106,26 @@ RayAnswer closest(const SphereTarget& target, const Ray& ray, double farthest, H
   Meeting at;
   if (const RayAnswer answer = meet(target, ray, farthest, at); answer != RayAnswer::hit) return answer;
   const PatchedSphere& sphere = *target.sphere;
-  dvec2 p;
-  const std::int32_t patch = place(sphere, at, p);
-  if (patch < 0) return RayAnswer::unknown;
+  dvec2 p(0.0);
+  double outward = sphere.outward;
+  hit.patch = 0;
+  if (sphere.patches) {
+    const std::int32_t patch = place(sphere, at, p);
+    if (patch < 0) return RayAnswer::unknown;
+    outward = sphere.patches->patches[static_cast<std::size_t>(patch)].outward;
+    hit.patch = sphere.name_of(patch);
+  }
   hit.t = at.t, hit.t_error = at.t_error;
-  hit.surface = target.surface, hit.patch = sphere.name_of(patch), hit.u = p.x, hit.v = p.y;
+  hit.surface = target.surface, hit.u = p.x, hit.v = p.y;
   hit.point = target.frame + (sphere.center + target.radius * at.point);
-  hit.normal = sphere.patches->patches[static_cast<std::size_t>(patch)].outward * at.point;
+  hit.normal = outward * at.point;
   return RayAnswer::hit;
 }
 
 RayAnswer occludes(const SphereTarget& target, const Ray& ray) {
   Meeting at;
   if (const RayAnswer answer = meet(target, ray, INFINITY, at); answer != RayAnswer::hit) return answer;
+  if (!target.sphere->patches) return RayAnswer::hit;
   const SphereCell& cell = target.sphere->patches->cells[at.cell.cell];
   dvec2 p;
   if ((cell.owner >= 0 && cell.others < 0) || place(*target.sphere, at, p) >= 0) return RayAnswer::hit;

@@ -27,7 +27,8 @@ SphereTarget target_at(const PatchedSphere& sphere, const dvec3& frame, int surf
 
 enum class RayAnswer { miss, hit, unknown };
 
-// The closest hit, if its t is not beyond `farthest`; `hit` is set where there is one.
+// The closest hit, if its t is not beyond `farthest`; `hit` is set where there is one, but for the parameters
+// on a sphere without patches, which `finish` (query.h) sets.
 RayAnswer closest_on_sphere(const SphereTarget& target, const Ray& ray, double farthest, Hit& hit) noexcept;
 // Whether there is one at all.
 RayAnswer sphere_occludes(const SphereTarget& target, const Ray& ray) noexcept;

@@ -169,6 +169,14 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
 
 }  // namespace
 
+PatchedSphere without_patches(const Ellipsoid& ellipsoid) {
+  PatchedSphere out;
+  out.ellipsoid = ellipsoid, out.outward = 1.0, out.error = ellipsoid_error(ellipsoid);
+  if (const double r = ellipsoid.uniform_radius; r > smallest_radius && r < largest_radius)
+    out.radius = r, out.inverse_radius = 1.0 / r;
+  return out;
+}
+
 Net image_of(const PatchedSphere& sphere, const Net& net) {
   Net image = net;
   for (dvec4& p : points_of(image))
@@ -231,6 +239,7 @@ SpherePoint sphere_point(const SphereRoots& r, int side) noexcept {
 
 std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const std::vector<Net>& nets,
                                              const SpherePoint& point, const Reach& reach) noexcept {
+  if (!sphere.patches) return PlaceOnSphere{0, 0.0, 0.0, sphere.outward};
   const SpherePatches& patches = *sphere.patches;
   const CellPlace at = cell_at(sphere.to_patches(point.rough), patches.cells_a_side);
   const SphereCell& cell = patches.cells[at.cell];
@@ -247,6 +256,7 @@ std::optional<PlaceOnSphere> place_on_sphere(const PatchedSphere& sphere, const 
 
 bool covers(const PatchedSphere& sphere, const std::vector<Net>& nets, const SpherePoint& point,
             const Reach& reach) noexcept {
+  if (!sphere.patches) return true;
   const CellPlace at = cell_at(sphere.to_patches(point.rough), sphere.patches->cells_a_side);
   const SphereCell& cell = sphere.patches->cells[at.cell];
   return (cell.owner >= 0 && cell.others < 0) || place_on_sphere(sphere, nets, point, reach).has_value();

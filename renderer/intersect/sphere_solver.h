@@ -21,7 +21,7 @@ struct alignas(64) PatchedSphere {
   // What patch k is called in the surface: first + k, or names[k] where they do not follow one another.
   std::int32_t first = 0;
   bool turned = false, named = false;
-  std::shared_ptr<const SpherePatches> patches;
+  std::shared_ptr<const SpherePatches> patches;  // none where the whole surface is one
   dmat3 turn{1.0};  // from the unit sphere's space to that of the patches, where it is another
   std::vector<std::int32_t> names;
   Ellipsoid ellipsoid{dmat3(1.0)};
@@ -31,6 +31,12 @@ struct alignas(64) PatchedSphere {
     return !named ? first + patch : names[static_cast<std::size_t>(patch)];
   }
 };
+
+// About the frame's zero, as a surface of its own.
+PatchedSphere without_patches(const Ellipsoid& ellipsoid);
+
+// Radii of spheres, beyond which they are met as other ellipsoids are.
+inline constexpr double smallest_radius = 1e-100, largest_radius = 1e100;
 
 // The net in the unit sphere's space.
 Net image_of(const PatchedSphere& sphere, const Net& net);

@@ -57,7 +57,7 @@ struct Tracer::Implementation {
     }
     Query q = make_query(ray, Mode::closest);
     visit(q);
-    if (q.best) finish(q, q.best);
+    if (q.best) finish_hit(q.best);
     return q.best;
   }
 
@@ -66,7 +66,7 @@ struct Tracer::Implementation {
     q.local = prepared.local, q.entry = prepared.entry, q.has_normals = true;
     if (one_frame) q.local_surface = Query::every_surface, q.local_valid = true;
     hierarchy->visit_all(q.local, q.entry, &q);
-    if (q.best) finish(q, q.best);
+    if (q.best) finish_hit(q.best);
     return q.best;
   }
 
@@ -86,6 +86,8 @@ struct Tracer::Implementation {
           hits[first + k] = closest(rays[first + k]);
     }
   }
+
+  void finish_hit(Hit& hit) const { finish(placed[static_cast<std::size_t>(hit.surface)], hit); }
 
   Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode}; }
 };
@@ -163,8 +165,8 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     placed.compiled = self.placed[twins[k]].compiled;
     placed.origin = self.surfaces[k].surface.origin;
     const CompiledSurface& compiled = *placed.compiled;
-    if (compiled.set.boxes.size() == 1 && compiled.spheres.size() == 1 && compiled.spheres[0].radius > 0.0)
-      placed.sphere = &compiled.spheres[0];
+    if (const PatchedSphere* sphere = compiled.lone_sphere(); sphere && sphere->radius > 0.0)
+      placed.sphere = sphere;
     if (const Box& bounds = compiled.bounds; !bounds.empty())
       world.add(Box{bounds.low + placed.origin, bounds.high + placed.origin});
     if (twins[k] == k) self.leaf_count += compiled.set.boxes.size();
@@ -216,7 +218,9 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Hit Tracer::closest(const Ray& ray) const noexcept {
   if (implementation_->alone) {
     Hit hit;
-    if (closest_on_sphere(*implementation_->alone, ray, INFINITY, hit) != RayAnswer::unknown) return hit;
+    const RayAnswer answer = closest_on_sphere(*implementation_->alone, ray, INFINITY, hit);
+    if (answer == RayAnswer::hit) implementation_->finish_hit(hit);
+    if (answer != RayAnswer::unknown) return hit;
   }
   return implementation_->closest(ray);
 }
@@ -246,7 +250,10 @@ void Tracer::closest(std::span<const Ray> rays, std::span<Hit> hits) const noexc
     const std::size_t count = std::min(some, rays.size() - first);
     closest_on_sphere(*self.alone, &rays[first], count, &hits[first], done);
     for (std::size_t k = 0; k < count; ++k)
-      if (!done[k]) hits[first + k] = closest(rays[first + k]);
+      if (!done[k])
+        hits[first + k] = closest(rays[first + k]);
+      else if (hits[first + k])
+        self.finish_hit(hits[first + k]);
   }
 }
 
@@ -285,7 +292,7 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out.push_back(hits[k]);
     out_signs.push_back(signs[k]);
   }
-  for (Hit& hit : out) finish(q, hit);
+  for (Hit& hit : out) implementation_->finish_hit(hit);
   return out;
 }
 
@@ -314,6 +321,7 @@ TracerStatistics Tracer::statistics() const {
       s.bytes += sizeof(sphere) + sphere.names.size() * sizeof(sphere.names[0]);
       if (shared.insert(sphere.patches.get()).second) s.bytes += sphere.patches->bytes();
     }
+    if (compiled.analytic) s.bytes += sizeof(PatchedSphere);
     if (compiled.hierarchy) s.bytes += compiled.hierarchy->bytes();
   }
   if (self.hierarchy) s.bytes += self.hierarchy->bytes();

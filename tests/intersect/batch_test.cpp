@@ -88,7 +88,8 @@ std::vector<Scene> scenes() {
        {R"({"type": "sphere_tiling", "topology": "cube"})",
         R"({"type": "sphere_tiling", "topology": "hemispheres"})", R"({"type": "sphere_octant"})",
         R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron"})",
-        R"({"type": "sphere_octant", "octants": [0, 3, 6]})", R"({"type": "sphere_cap", "z_max": -0.2})"}) {
+        R"({"type": "sphere_octant", "octants": [0, 3, 6]})", R"({"type": "sphere_cap", "z_max": -0.2})",
+        R"({"type": "sphere"})"}) {
     out.push_back({object, {{build_family(object), Solver::quadric}}, 1.0, dvec3(0.0)});
     out.push_back({object, {{placed(build_family(object), 0.37, aside), Solver::quadric}}, 0.37, aside});
   }
@@ -96,6 +97,9 @@ std::vector<Scene> scenes() {
   for (Net& net : egg.patches)
     for (dvec4& p : points_of(net)) p.z *= 1.4;
   out.push_back({"egg", {{egg, Solver::quadric}}, 1.0, dvec3(0.0)});
+  Surface analytic_egg;
+  analytic_egg.ellipsoid = dmat3(1.0), (*analytic_egg.ellipsoid)[2][2] = 1.4;
+  out.push_back({"analytic egg", {{analytic_egg, Solver::newton}}, 1.0, dvec3(0.0)});
   const Surface cube = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
   out.push_back({"three",
                  {{placed(cube, 0.5, dvec3(0.4, 0.0, 0.0)), Solver::quadric},
