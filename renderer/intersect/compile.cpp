@@ -45,8 +45,10 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
       without[k] = radial[k] || (!found.rest.empty() && !found.rest[k]);
     }
     compiled.set = build_leaves(surface.patches, max_depth, without);
-    if (found.rest.empty() || std::find(found.rest.begin(), found.rest.end(), true) != found.rest.end())
+    if (found.rest.empty() || std::find(found.rest.begin(), found.rest.end(), true) != found.rest.end()) {
+      compiled.patches.reserve(surface.patches.size());
       for (const Net& net : surface.patches) compiled.patches.push_back(newton_patch(net));
+    }
     for (std::size_t k = 0; k < radial.size(); ++k)
       if (radial[k])
         add_radial_leaves(surface.patches[k], static_cast<int>(k), std::min(radial_depth, max_depth / 2),
@@ -63,6 +65,7 @@ std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled) {
   const dvec3 center = compiled.bounds.center();
   std::vector<Box> boxes;
   std::vector<LeafName> names;
+  boxes.reserve(compiled.set.boxes.size()), names.reserve(compiled.set.boxes.size());
   for (const Box& box : compiled.set.boxes) {
     names.push_back({0, static_cast<unsigned>(boxes.size())});
     boxes.push_back({box.low - center, box.high - center});

@@ -44,50 +44,47 @@ void place(const TriangleCell& c, Leaf& leaf) {
   leaf.edge_b = c.corner[1] - c.corner[2];
 }
 
+// What one patch after another is cut with.
+template <class Shape>
+struct Scratch {
+  Restriction<Shape> restriction;
+  std::vector<dvec4> points, wide;
+};
+
 template <class Shape>
 class Builder {
  public:
-  Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, int depth, Restriction& restriction,
+  Builder(const Shape& shape, const std::vector<dvec4>& net, int patch, int depth, Scratch<Shape>& scratch,
           LeafSet& out)
-      : shape_(shape),
-        net_(net),
-        patch_(patch),
-        depth_(depth),
-        out_(out),
-        magnitudes_(net.size()),
-        points_(net.size()),
-        inner_(net.size()),
-        restrict_(restriction) {
-    for (std::size_t k = 0; k < net.size(); ++k) magnitudes_[k] = glm::abs(net[k]);
+      : shape_(shape), net_(net.data()), patch_(patch), depth_(depth), scratch_(scratch), out_(out) {
+    scratch.restriction.start(shape, net);
+    scratch.points.resize(net.size()), scratch.wide.resize(net.size());
   }
 
   // `uneven`: how many more halvings there must be, at least, before a leaf can be tame.
   void divide(const typename Shape::Cell& cell, int depth, int uneven = 0) {
-    const dvec4* net = net_.data();
+    Restriction<Shape>& restriction = scratch_.restriction;
+    const LeafArithmetic<Shape>& arithmetic = restriction.arithmetic;
     Leaf leaf;
     leaf.patch = patch_;
     place(cell, leaf);
-    const SecondOrder<dvec4> center = shape_.second(net, Shape::to_patch(cell, Shape::center()));
+    const SecondOrder<dvec4> center = arithmetic.second(shape_, net_, Shape::to_patch(cell, Shape::center()));
     bool positive = false;
     if (uneven == 0 || depth >= depth_) {
-      restrict_(shape_, net, cell, points_.data());
-      Box box;
-      positive = true;
-      for (const dvec4& p : points_) {
-        positive = positive && p.w > 0.0;
-        if (p.w > 0.0) box.add(dvec3(p) / p.w);
-      }
+      const dvec4 *points = scratch_.points.data(), *wide = scratch_.wide.data();
+      restriction.points(cell, scratch_.points.data());
+      positive = std::all_of(points, points + shape_.size(), [](const dvec4& p) { return p.w > 0.0; });
       Evenness evenness;
       if (positive) {
-        leaf.scale = scale_of(cell);
-        restrict_(shape_, net, enlarged(cell), inner_.data());
-        evenness = set_frame(shape_, center, points_, inner_, leaf);
+        leaf.scale = restriction.scale(cell);
+        restriction.points(enlarged(cell), scratch_.wide.data());
+        evenness = set_frame(shape_, arithmetic, restriction.parameters, center, points, wide, leaf);
       }
       const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
       if (tame || (positive && depth >= depth_)) {
         some_tame_ = some_tame_ || tame;
         out_.leaves.push_back(leaf);
-        out_.boxes.push_back(box);
+        out_.boxes.push_back(arithmetic.box(shape_.size(), points));
         return;
       }
       uneven = halvings_left(evenness);
@@ -112,13 +109,11 @@ class Builder {
 
  private:
   const Shape shape_;
-  const std::vector<dvec4>& net_;
+  const dvec4* const net_;
   const int patch_;
   const int depth_;
+  Scratch<Shape>& scratch_;
   LeafSet& out_;
-  std::vector<dvec4> magnitudes_;  // |P_ij|, componentwise
-  std::vector<dvec4> points_, inner_;
-  Restriction& restrict_;
   bool some_tame_ = false;
   int beyond_depth_ = 0;  // cells divided there
 
@@ -127,16 +122,6 @@ class Builder {
   static int halvings_left(const Evenness& e) {
     const double excess = std::max(e.straight / straight_target, e.oblique / oblique_target);
     return excess < 1e6 ? std::max(static_cast<int>(2.0 * std::log2(excess)) - 3, 0) : 0;
-  }
-
-  NetScale scale_of(const typename Shape::Cell& cell) {
-    restrict_(shape_, magnitudes_.data(), cell, inner_.data());
-    NetScale scale;
-    for (const dvec4& p : inner_) {
-      scale.position = std::fmax(scale.position, largest(dvec3(p)));
-      scale.weight = std::fmax(scale.weight, std::fabs(p.w));
-    }
-    return scale;
   }
 
   // Whether the surface is longer along a than along b.
@@ -166,25 +151,31 @@ void check_finite(const std::vector<dvec4>& points, int patch) {
 }  // namespace
 
 LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without) {
+  // What these know serves the next surface too.
+  static thread_local Scratch<TensorShape> for_rectangles;
+  static thread_local Scratch<TriangleShape> for_triangles;
   LeafSet out;
-  static thread_local Restriction restriction;  // what it knows serves the next surface too
+  const std::size_t likely = patches.size() << std::min(max_depth, 2);
+  out.leaves.reserve(likely), out.boxes.reserve(likely);
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const int patch = static_cast<int>(k);
-    check_finite(points_of(patches[k]), patch);
+    const std::vector<dvec4>& points = points_of(patches[k]);
+    check_finite(points, patch);
     if (k < without.size() && without[k]) continue;
-    const auto build = [&](auto shape, int degree, const std::vector<dvec4>& points) {
+    const auto build = [&](auto shape, int degree, auto& scratch) {
       if (degree > max_degree)
         throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, degree, max_degree));
-      Builder<decltype(shape)> builder(shape, points, patch, max_depth, restriction, out);
+      Builder<decltype(shape)> builder(shape, points, patch, max_depth, scratch, out);
       builder.divide({}, 0);
       if (!builder.some_tame()) check_area(patches[k], patch);
     };
     if (const auto* tensor = std::get_if<TensorNet>(&patches[k]))
-      build(TensorShape{tensor->m, tensor->n}, std::max(tensor->m, tensor->n), tensor->points);
+      build(TensorShape{tensor->m, tensor->n}, std::max(tensor->m, tensor->n), for_rectangles);
     else
       build(TriangleShape{std::get<TriangleNet>(patches[k]).n}, std::get<TriangleNet>(patches[k]).n,
-            points_of(patches[k]));
+            for_triangles);
   }
+  out.leaves.shrink_to_fit(), out.boxes.shrink_to_fit();
   return out;
 }
 

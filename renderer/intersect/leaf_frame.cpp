@@ -1,7 +1,9 @@
 #include "renderer/intersect/leaf_frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -12,7 +14,11 @@ namespace {
 
 constexpr float unbounded = std::numeric_limits<float>::infinity();
 
-float up(double x) { return std::nextafter(static_cast<float>(x), unbounded); }
+// Of what is not below zero; what is no number or infinite stays so.
+float up(double x) {
+  const float rounded = static_cast<float>(x) + 0.0f;  // and zero has no sign
+  return rounded < unbounded ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + 1) : rounded;
+}
 
 // The surface in space at the leaf's centre, by the leaf's parameters.
 struct CenterJet {
@@ -33,43 +39,19 @@ CenterJet jet_of(const SecondOrder<dvec4>& s, const Leaf& leaf) {
   return {x, e.x * u + e.y * v, f.x * u + f.y * v, second(e, e), second(e, f), second(f, f)};
 }
 
-// The largest |f - center|, componentwise, of the coefficients of a derivative.
-dvec4 spread(std::span<const dvec4> f, const dvec4& center) {
-  dvec4 most(0.0);
-  for (const dvec4& p : f) most = glm::max(most, glm::abs(p - center));
-  return most;
-}
-
-// The leaf's parameters less those of its centre, at the net's points: the Bernstein coefficients of (a, b).
-template <class Visit>
-void visit_parameters(const TensorShape& shape, const Visit& visit) {
-  std::size_t k = 0;
-  for (int i = 0; i <= shape.m; ++i)
-    for (int j = 0; j <= shape.n; ++j)
-      visit(k++, i, j, dvec2(static_cast<double>(i) / shape.m, static_cast<double>(j) / shape.n) - 0.5);
-}
-template <class Visit>
-void visit_parameters(const TriangleShape& shape, const Visit& visit) {
-  std::size_t k = 0;
-  for (int i = 0; i <= shape.n; ++i)
-    for (int j = 0; j <= shape.n - i; ++j)
-      visit(k++, i, j, dvec2(static_cast<double>(i) / shape.n, static_cast<double>(j) / shape.n) - 1.0 / 3.0);
-}
-
-// The Bernstein coefficients of (a^2, a b, b^2), for a shape of degree 2 at least.
-dvec3 square_coefficients(const TensorShape& shape, int i, int j, dvec2 p) {
-  const auto square = [](int n, int k, double a) {  // (t - 1/2)^2 less its value at the coefficient's place
-    const double t = static_cast<double>(k) / n;
-    return a * a - t * (1.0 - t) / (n - 1);
+// The largest |d - center|, componentwise, of the derivatives d = degree (difference) / enlargement: rounded
+// as each of them is, and in their order.
+dvec4 spread(int degree, const dvec4& low, const dvec4& high, const dvec4& center) {
+  const auto off = [&](const dvec4& difference) {
+    return glm::abs(static_cast<double>(degree) * difference / leaf_enlargement - center);
   };
-  return {square(shape.m, i, p.x), p.x * p.y, square(shape.n, j, p.y)};
+  return glm::max(off(low), off(high));
 }
-dvec3 square_coefficients(const TriangleShape& shape, int i, int j, dvec2 p) {
-  const double n = shape.n, u = i / n, v = j / n, rest = 1.0 / (n - 1.0);
-  return {p.x * p.x - u * (1.0 - u) * rest, p.x * p.y + u * v * rest, p.y * p.y - v * (1.0 - v) * rest};
-}
-bool has_squares(const TensorShape& shape) { return shape.m > 1 && shape.n > 1; }
-bool has_squares(const TriangleShape& shape) { return shape.n > 1; }
+
+int degree_a(const TensorShape& shape) { return shape.m; }
+int degree_b(const TensorShape& shape) { return shape.n; }
+int degree_a(const TriangleShape& shape) { return shape.n; }
+int degree_b(const TriangleShape& shape) { return shape.n; }
 
 void leave_unbounded(LeafFrame& f) {
   f = {};
@@ -77,21 +59,12 @@ void leave_unbounded(LeafFrame& f) {
   f.slack = f.slack_weight = f.slack_zeta[0] = f.slack_zeta[1] = f.bound_bend = unbounded;
 }
 
-// Homogeneous coordinates to those of the frame, the weight of the centre being 1.
-struct ToFrame {
-  const LeafFrame& frame;
-  double weight;  // 1 over that of the centre
-
-  dvec4 operator()(const dvec4& p) const {
-    const dvec2 across =
-        p.x * frame.across[0] + p.y * frame.across[1] + p.z * frame.across[2] + p.w * frame.across[3];
-    return weight * dvec4(across, glm::dot(frame.normal, p), p.w);
-  }
-};
+}  // namespace
 
 template <class Shape>
-Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<const dvec4> points,
-             std::span<dvec4> wide, Leaf& leaf) {
+Evenness set_frame(const Shape& shape, const LeafArithmetic<Shape>& arithmetic,
+                   const LeafParameters& parameters, const SecondOrder<dvec4>& center, const dvec4* points,
+                   const dvec4* wide, Leaf& leaf) {
   LeafFrame& frame = leaf.frame;
   leave_unbounded(frame);
   const CenterJet s = jet_of(center, leaf);
@@ -116,18 +89,11 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
   };
   put(0, s.aa, 0.5f), put(1, s.ab, 1.0f), put(2, s.bb, 0.5f);
 
-  const ToFrame to_frame{frame, 1.0 / center.value.w};
-  dvec4 most(0.0);
-  Interval zeta;
+  const FrameExtent extent =
+      arithmetic.extent(shape, {frame, 1.0 / center.value.w, parameters, points, wide});
+  const dvec4& most = extent.off;
+  const Interval zeta{std::min(0.0, extent.zeta_low), std::max(0.0, extent.zeta_high)};
   const dvec3 bend(frame.bend[0], frame.bend[1], frame.bend[2]);
-  double sagging = has_squares(shape) ? 0.0 : unbounded;
-  visit_parameters(shape, [&](std::size_t k, int i, int j, dvec2 p) {
-    const dvec4 here = to_frame(points[k]);
-    most = glm::max(most, glm::abs(here - dvec4(p, 0.0, 1.0)));
-    zeta = {std::min(zeta.low, here.z), std::max(zeta.high, here.z)};
-    if (has_squares(shape))
-      sagging = std::max(sagging, std::fabs(here.z - glm::dot(bend, square_coefficients(shape, i, j, p))));
-  });
   // Rounding of a ray's plane may move a root by so much, and the frame's own by less. A ray that meets the
   // leaf is no further from the origin than the leaf.
   const double reach = largest(s.x) + 2.0 * size, error = 8.0 * residual_roundoffs * unit_roundoff *
@@ -148,20 +114,12 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
     const double half = Shape::half_width(), x = most.x, y = most.y;
     const dvec3 squares(x * (2.0 * half + x), half * (x + y) + x * y, y * (2.0 * half + y));
     const double higher =
-        sagging + std::max(zeta.high, -zeta.low) * most.w + glm::dot(glm::abs(bend), squares);
+        extent.sagging + std::max(zeta.high, -zeta.low) * most.w + glm::dot(glm::abs(bend), squares);
     frame.bound_bend = up(1.0001 * (higher / ((1.0 - most.w) * (1.0 - most.w)) + error * rows[2]));
   }
 
-  for (dvec4& p : wide) p = to_frame(p);
-  dvec4 derivative[max_net_size];
-  const auto derived = [&](const Shape& of) {
-    for (int k = 0; k < of.size(); ++k) derivative[k] /= leaf_enlargement;
-    return std::span<const dvec4>(derivative, static_cast<std::size_t>(of.size()));
-  };
-  shape.derive_a(wide.data(), derivative);
-  const dvec4 by_a = spread(derived(shape.derived_a()), dvec4(1.0, 0.0, 0.0, 0.0));
-  shape.derive_b(wide.data(), derivative);
-  const dvec4 by_b = spread(derived(shape.derived_b()), dvec4(0.0, 1.0, 0.0, 0.0));
+  const dvec4 by_a = spread(degree_a(shape), extent.a_low, extent.a_high, dvec4(1.0, 0.0, 0.0, 0.0));
+  const dvec4 by_b = spread(degree_b(shape), extent.b_low, extent.b_high, dvec4(0.0, 1.0, 0.0, 0.0));
   const dvec4 slack = by_a + by_b;
   // The Jacobian is rounded too: a flat leaf has no slack, and yet no proof when a ray lies in it.
   frame.slack = up(std::max(slack.x, slack.y) + 4.0 * error * std::max(rows[0], rows[1]));
@@ -173,16 +131,9 @@ Evenness set(const Shape& shape, const SecondOrder<dvec4>& center, std::span<con
   return {straight, straight + size * std::max(rows[0] * frame.slack_zeta[0], rows[1] * frame.slack_zeta[1])};
 }
 
-}  // namespace
-
-Evenness set_frame(const TensorShape& shape, const SecondOrder<dvec4>& center, std::span<const dvec4> points,
-                   std::span<dvec4> wide, Leaf& leaf) {
-  return set(shape, center, points, wide, leaf);
-}
-
-Evenness set_frame(const TriangleShape& shape, const SecondOrder<dvec4>& center,
-                   std::span<const dvec4> points, std::span<dvec4> wide, Leaf& leaf) {
-  return set(shape, center, points, wide, leaf);
-}
+template Evenness set_frame(const TensorShape&, const LeafArithmetic<TensorShape>&, const LeafParameters&,
+                            const SecondOrder<dvec4>&, const dvec4*, const dvec4*, Leaf&);
+template Evenness set_frame(const TriangleShape&, const LeafArithmetic<TriangleShape>&, const LeafParameters&,
+                            const SecondOrder<dvec4>&, const dvec4*, const dvec4*, Leaf&);
 
 }  // namespace rondure

@@ -1,9 +1,7 @@
 // A leaf's own frame, and the bounds that hold in it.
 #pragma once
 
-#include <span>
-
-#include "renderer/intersect/leaf.h"
+#include "renderer/intersect/leaf_arithmetic.h"
 
 namespace rondure {
 
@@ -16,10 +14,10 @@ struct Evenness {
 
 // Sets the frame of a leaf that is placed already. `center`: the patch's homogeneous polynomial with its
 // derivatives by (u, v) at the leaf's centre. `points`: the leaf's net, of positive weights; `wide`: that of
-// the enlarged leaf, which is overwritten.
-Evenness set_frame(const TensorShape& shape, const SecondOrder<dvec4>& center, std::span<const dvec4> points,
-                   std::span<dvec4> wide, Leaf& leaf);
-Evenness set_frame(const TriangleShape& shape, const SecondOrder<dvec4>& center,
-                   std::span<const dvec4> points, std::span<dvec4> wide, Leaf& leaf);
+// the enlarged leaf.
+template <class Shape>
+Evenness set_frame(const Shape& shape, const LeafArithmetic<Shape>& arithmetic,
+                   const LeafParameters& parameters, const SecondOrder<dvec4>& center, const dvec4* points,
+                   const dvec4* wide, Leaf& leaf);
 
 }  // namespace rondure

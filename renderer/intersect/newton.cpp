@@ -37,16 +37,7 @@ namespace avx2 {
 #pragma GCC pop_options
 #endif
 
-Instructions best() { return has(Instructions::avx2) ? Instructions::avx2 : Instructions::baseline; }
-
 }  // namespace
-
-bool has([[maybe_unused]] Instructions set) {
-#ifdef __x86_64__
-  if (set == Instructions::avx2) return __builtin_cpu_supports("avx2") != 0;
-#endif
-  return set == Instructions::baseline;
-}
 
 NewtonPatch newton_patch(const Net& net, [[maybe_unused]] Instructions set) {
   NewtonPatch patch;
@@ -65,9 +56,6 @@ NewtonPatch newton_patch(const Net& net, [[maybe_unused]] Instructions set) {
   return patch;
 }
 
-NewtonPatch newton_patch(const Net& net) {
-  static const Instructions set = best();
-  return newton_patch(net, set);
-}
+NewtonPatch newton_patch(const Net& net) { return newton_patch(net, best_instructions()); }
 
 }  // namespace rondure

@@ -20,6 +20,7 @@
 // and `clipping` has to look.
 #pragma once
 
+#include "renderer/intersect/instructions.h"
 #include "renderer/intersect/leaf.h"
 
 namespace rondure {
@@ -51,12 +52,6 @@ struct NewtonRoot {
   Root root;
   FirstOrder<dvec4> surface;
 };
-
-// Instruction sets that the method is compiled for. The results are the same bits on all.
-enum class Instructions { baseline, avx2 };
-
-// Whether this machine has the set.
-bool has(Instructions set);
 
 // What the method needs of a patch, whose net must stay where it is.
 struct NewtonPatch {

@@ -4,32 +4,15 @@
 
 #include "renderer/intersect/jets-inl.h"
 #include "renderer/intersect/newton_arithmetic-inl.h"
+#include "renderer/intersect/one_point-inl.h"
 
-struct OneRay {
-  using Number = double;
-#if POINT_IN_ONE_REGISTER
-  using Point = double __attribute__((vector_size(32)));
-#else
-  using Point = detail::Lanes4;
-#endif
-  FOR_THIS_SET static double lift(double x) { return x; }
+struct OneRay : OnePoint {
   FOR_THIS_SET static double divided(double a, double b) { return quotient(a, b); }
   FOR_THIS_SET static double abs(double x) { return std::fabs(x); }
   FOR_THIS_SET static double sqrt(double x) { return std::sqrt(x); }
   // As vectors have it: b where either is no number.
   FOR_THIS_SET static double max(double a, double b) { return a > b ? a : b; }
   FOR_THIS_SET static double where_positive(double x, double a, double b) { return x > 0.0 ? a : b; }
-  FOR_THIS_SET static Point zero() { return Point{}; }
-  FOR_THIS_SET static Point load(const dvec4& p) {
-    Point out;
-    std::memcpy(&out, &p, sizeof out);
-    return out;
-  }
-  FOR_THIS_SET static dvec4 store(const Point& p) {
-    dvec4 out;
-    std::memcpy(&out, &p, sizeof out);
-    return out;
-  }
 };
 using Place = Pair<OneRay>;
 

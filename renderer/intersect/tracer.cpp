@@ -179,8 +179,12 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
                                      [&](const PlacedSurface& p) { return p.origin == common; });
   self.one_frame = all_there && glm::distance(common, center) < 0x1p-4 * glm::distance(world.low, world.high);
   if (self.one_frame) center = common;
+  const auto is_one = [](const PlacedSurface& s) { return s.compiled->hierarchy || s.sphere; };
+  std::size_t box_count = 0;
+  for (const PlacedSurface& s : self.placed) box_count += is_one(s) ? 1 : s.compiled->set.boxes.size();
   std::vector<Box> boxes;
   std::vector<LeafName> names;
+  boxes.reserve(box_count), names.reserve(box_count);
   for (unsigned k = 0; k < count; ++k) {
     const CompiledSurface& compiled = *self.placed[k].compiled;
     const dvec3 shift = self.placed[k].origin - center;
@@ -188,7 +192,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
       boxes.push_back({box.low + shift, box.high + shift});
       names.push_back({k, leaf});
     };
-    if (compiled.hierarchy || self.placed[k].sphere) {
+    if (is_one(self.placed[k])) {
       add(compiled.bounds, self.placed[k].sphere ? LeafName::sphere : LeafName::whole);
       continue;
     }

@@ -1,0 +1,97 @@
+#include "renderer/intersect/leaf_arithmetic.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "renderer/bezier/dispatch.h"
+#include "renderer/intersect/newton.h"
+
+namespace rondure {
+namespace {
+
+namespace baseline {
+#define FOR_THIS_SET
+#define INLINE_FOR_THIS_SET [[gnu::always_inline]] inline
+#define POINT_IN_ONE_REGISTER 0
+#include "renderer/intersect/leaf_arithmetic-inl.h"
+#undef FOR_THIS_SET
+#undef INLINE_FOR_THIS_SET
+#undef POINT_IN_ONE_REGISTER
+}  // namespace baseline
+
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace avx2 {
+#define POINT_IN_ONE_REGISTER 1
+#define FOR_THIS_SET __attribute__((target("avx2")))
+#define INLINE_FOR_THIS_SET __attribute__((target("avx2"), always_inline)) inline
+#include "renderer/intersect/leaf_arithmetic-inl.h"
+#undef FOR_THIS_SET
+#undef INLINE_FOR_THIS_SET
+#undef POINT_IN_ONE_REGISTER
+}  // namespace avx2
+#pragma GCC pop_options
+#endif
+
+template <class Shape>
+LeafArithmetic<Shape> arithmetic_by(const Shape& shape, [[maybe_unused]] Instructions set) {
+#ifdef __x86_64__
+  if (set == Instructions::avx2) return avx2::arithmetic_for(shape);
+#endif
+  return baseline::arithmetic_for(shape);
+}
+
+void add(LeafParameters& out, dvec2 p, const dvec3& squares) {
+  out.linear.push_back(dvec4(p, 0.0, 1.0));
+  for (int k = 0; k < 3; ++k) out.squares[k].push_back(squares[k]);
+}
+
+void fill_lanes(LeafParameters& out) {
+  for (std::vector<double>& s : out.squares)
+    while (s.size() % LeafParameters::lanes != 0) s.push_back(s.back());
+}
+
+double part(int k, int n) { return static_cast<double>(k) / n; }
+
+}  // namespace
+
+LeafParameters parameters_of(const TensorShape& shape) {
+  LeafParameters out;
+  out.has_squares = shape.m > 1 && shape.n > 1;
+  const auto square = [](int n, double t) {  // (t - 1/2)^2 less its value at the coefficient's place
+    const double a = t - 0.5;
+    return a * a - t * (1.0 - t) / (n - 1);
+  };
+  for (int i = 0; i <= shape.m; ++i)
+    for (int j = 0; j <= shape.n; ++j) {
+      const dvec2 t(part(i, shape.m), part(j, shape.n)), p = t - 0.5;
+      add(out, p, {square(shape.m, t.x), p.x * p.y, square(shape.n, t.y)});
+    }
+  fill_lanes(out);
+  return out;
+}
+
+LeafParameters parameters_of(const TriangleShape& shape) {
+  LeafParameters out;
+  out.has_squares = shape.n > 1;
+  const double rest = 1.0 / (shape.n - 1.0);
+  for (int i = 0; i <= shape.n; ++i)
+    for (int j = 0; j <= shape.n - i; ++j) {
+      const double u = part(i, shape.n), v = part(j, shape.n);
+      const dvec2 p = dvec2(u, v) - 1.0 / 3.0;
+      add(out, p,
+          {p.x * p.x - u * (1.0 - u) * rest, p.x * p.y + u * v * rest, p.y * p.y - v * (1.0 - v) * rest});
+    }
+  fill_lanes(out);
+  return out;
+}
+
+LeafArithmetic<TensorShape> leaf_arithmetic(const TensorShape& shape, Instructions set) {
+  return arithmetic_by(shape, set);
+}
+LeafArithmetic<TriangleShape> leaf_arithmetic(const TriangleShape& shape, Instructions set) {
+  return arithmetic_by(shape, set);
+}
+
+}  // namespace rondure
