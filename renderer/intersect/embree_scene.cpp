@@ -142,6 +142,11 @@ std::size_t width_of(RTCDevice device) {
                                                           : 0;
 }
 
+// Embree takes the inverse of a component below 1e-18 for that of +1e-18, but sorts the rays of a packet by
+// the component's own sign; a group in which these differ may lose all. So small, it is no different from 0:
+// it moves a ray by 2^-58 of the scene, far less than the rounding that the boxes are padded for.
+float without_trifles(float direction) { return std::fabs(direction) < 0x1p-59f ? 0.0f : direction; }
+
 // As many of the packet's rays as `Rays` holds, from `first` on.
 template <class Rays, std::size_t count, class Intersect>
 void visit_part(const EmbreeScene::Packet& packet, std::size_t first, const Intersect& intersect) {
@@ -151,9 +156,11 @@ void visit_part(const EmbreeScene::Packet& packet, std::size_t first, const Inte
   if (std::find(valid, valid + count, -1) == valid + count) return;
   Rays rays;
   copy(packet.origin[0], rays.ray.org_x), copy(packet.origin[1], rays.ray.org_y);
-  copy(packet.origin[2], rays.ray.org_z), copy(packet.direction[0], rays.ray.dir_x);
-  copy(packet.direction[1], rays.ray.dir_y), copy(packet.direction[2], rays.ray.dir_z);
-  copy(packet.far, rays.ray.tfar);
+  copy(packet.origin[2], rays.ray.org_z), copy(packet.far, rays.ray.tfar);
+  float* const directions[] = {rays.ray.dir_x, rays.ray.dir_y, rays.ray.dir_z};
+  for (std::size_t c = 0; c < 3; ++c)
+    std::transform(packet.direction[c] + first, packet.direction[c] + first + count, directions[c],
+                   without_trifles);
   for (std::size_t k = 0; k < count; ++k) {
     rays.ray.tnear[k] = rays.ray.time[k] = 0.0f;
     rays.ray.mask[k] = 0xffffffffu, rays.ray.id[k] = rays.ray.flags[k] = 0;

@@ -145,15 +145,15 @@ HWY_INLINE M enter(Packet& q, const double* const* rays, M ours, EmbreeScene::Pa
   const V rest = ((ray[0] - ray[0]) + (ray[1] - ray[1])) + (ray[2] - ray[2]);
   M open = hn::And(ours, hn::Eq(rest, zero));
   open = hn::And(open, set_direction_of(q, ray + 3, inverse_scale, g));
-  open = hn::And(open, set_base_of(q, q.target.hierarchy->center(), g));
-  set_part(q.open, g, hn::IfThenElseZero(open, one));
-
   const Hierarchy& hierarchy = *q.target.hierarchy;
+  open = hn::And(open, set_base_of(q, hierarchy.center(), g));
   const V unit = hn::Set(d, hierarchy.unit()),
           radius = hn::Set(d, hierarchy.radius() * hierarchy.unit() * (1.0 + 1e-9));
   const Vector local = vector_at(q.base, g), along = vector_at(q.direction, g);
   const Vector base{local.x * unit, local.y * unit, local.z * unit};
   const V slide = part(q.slide, g) * unit, room = radius * radius - dot(base, base);
+  open = hn::And(open, hn::Lt(hn::Abs(slide), hn::Set(d, farthest_base)));
+  set_part(q.open, g, hn::IfThenElseZero(open, one));
   const V half = hn::Sqrt(hn::Max(room, zero) * part(q.inverse_length2, g));
   const V start = ray[6] * inverse_scale * unit - slide, end = ray[7] * inverse_scale * unit - slide;
   const V near = hn::Max(start - hn::Set(d, 1e-9) * half, zero - half);

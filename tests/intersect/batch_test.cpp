@@ -45,6 +45,11 @@ std::vector<Ray> rays_at(double radius, const dvec3& center, std::size_t count, 
     if (k % 101 == 0) ray.direction = dvec3(0.0);
     if (k % 103 == 0) ray.origin.x = NAN;
     if (k % 107 == 0) ray.direction *= std::exp2(-1000.0);
+    // From 10^12 to 10^16 radii away, where the way there is longer than doubles resolve.
+    if (k % 29 == 7) {
+      const dvec3 far = radius * std::pow(10.0, 12.0 + 4.0 * a) * d;
+      ray.direction = ray.direction - (center + far - ray.origin), ray.origin = center + far;
+    }
     rays.push_back(ray);
   }
   return rays;
@@ -66,6 +71,9 @@ std::vector<Ray> bundles_at(double radius, const dvec3& center, std::size_t coun
       ray.origin += 0.3 * radius * apart * random_direction(random);
       ray.direction += length * apart * uniform(random) * random_direction(random);
       if (j % 17 == 3) ray = first.front();
+      // Next to nothing along an axis, beside others that go either way.
+      if (j % 23 == 9)
+        ray.direction[static_cast<int>(k % 3)] = -length * std::pow(10.0, -15.0 - 20.0 * apart);
       if (j % 19 == 5) ray.t_min = length > 0.0 ? radius / length : 0.0;
       rays.push_back(ray);
     }
@@ -115,6 +123,8 @@ std::vector<Scene> scenes() {
         R"({"type": "iss", "octants": {"degree": 7, "interior": 1}})"}) {
     out.push_back({object, {{build_family(object), Solver::newton}}, 1.0, dvec3(0.0), true});
     out.push_back({object, {{placed(build_family(object), 0.37, aside), Solver::newton}}, 0.37, aside, true});
+    out.push_back(
+        {object, {{placed(build_family(object), 1e-6, dvec3(0.0)), Solver::newton}}, 1e-6, dvec3(0.0), true});
   }
   // Of degrees that no kernel is made for, one of them flat and crossed by the other.
   Surface plates;

@@ -206,11 +206,14 @@ TEST_CASE("The padding covers every rounding of the traversal, with each instruc
           const EmbreeScene scene(boxes, names, 1.0, remember, settings.c_str());
           std::vector<Probe> together;
           for (int k = 0; k < rays; ++k) {
-            // Some packets are of one ray and what is near it.
+            // Some packets are of one ray and what is near it, to either side of a plane.
             Probe next = layouts.probe(boxes);
             if (!together.empty() && k / 16 % 2 == 0) {
               next = together.front();
               next.origin += 1e-3 * layouts.draw() * next.direction;
+              const int axis = static_cast<int>(layouts.below(3));
+              if (std::fabs(next.direction[axis]) < 0.5)
+                next.direction[axis] = layouts.decade(-25.0, -2.0) * (layouts.below(2) == 0 ? -1.0 : 1.0);
             }
             probe(scene, boxes, next, count);
             together.push_back(next);
