@@ -73,33 +73,4 @@ inline bool accept(const Ray& ray, const LocalRay& local, int surface, const dve
   return t >= ray.t_min && t <= ray.t_max;
 }
 
-// How the surface that a crossing is of and the one that the ray starts on may touch.
-enum class Contact { beside, within, around };  // the crossing's is beside, within or around the start's
-
-// Whether a ray that starts on one closed surface, of size `start_size`, meets another there: at a point
-// where they touch, or all but touch, rounding puts the other's wall behind the ray. It is ahead where the
-// ray is in the space between: of surfaces side by side it leaves the one and goes on into the other; of
-// nested ones it goes from the outer into the inner, or from the inner out of the outer. For a crossing that
-// `accept` has refused as too early; `t` receives its place on the ray, the start. Elsewhere the other wall
-// may be the one that the ray came through. `contact()` is asked last.
-template <class Ask>
-bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
-                       const Crossing& c, const Ask& contact, double& t) {
-  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
-  // the extent at least.
-  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
-  const double behind = -(local.slide + c.s), bound = c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent));
-  if (!(behind >= 0.0 && behind <= bound) || ray.t_min > 0.0 || ray.t_max < 0.0 || c.likely == 0)
-    return false;
-  const double leaving = glm::dot(ray.start.normal, local.direction);
-  const bool outward = leaving > -0x1p-50, inward = leaving < 0x1p-50;
-  const Contact how = contact();
-  const bool ahead = how == Contact::beside   ? c.likely < 0 && outward
-                     : how == Contact::within ? c.likely < 0 && inward
-                                              : c.likely > 0 && outward;
-  if (!ahead) return false;
-  t = 0.0;
-  return true;
-}
-
 }  // namespace rondure

@@ -6,7 +6,7 @@
 #include "renderer/bezier/normal.h"
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
-#include "renderer/intersect/crossing.h"
+#include "renderer/intersect/contact.h"
 #include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/surface_crossing.h"
@@ -16,30 +16,21 @@ namespace {
 
 constexpr std::size_t cells_per_query = 1 << 15;
 
-// Of closed surfaces; where they touch, `normal` is that of `surface` there.
-Contact contact_with_start(const Query& q, const CompiledSurface& surface, const CompiledSurface& start,
-                           const dvec3& normal) {
-  if (!(glm::dot(normal, q.ray->start.normal) > 0.0)) return Contact::beside;
-  const double size = largest(surface.bounds.high - surface.bounds.low),
-               other = largest(start.bounds.high - start.bounds.low);
-  return size < other ? Contact::within : size > other ? Contact::around : Contact::beside;
-}
-
 // Whether the crossing is a hit, in the query's ray (`local` in some frame), of `surface`; `t` receives its
 // place. `normal()`: there, outward, of length one.
 template <class Normal>
 bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, const Normal& normal,
             double& t) {
   const dvec3& frame = q.surfaces[surface].origin;
-  if (accept(*q.ray, local, static_cast<int>(surface), frame, c, t)) return true;
+  const bool accepted = accept(*q.ray, local, static_cast<int>(surface), frame, c, t);
   const int start = q.ray->start.surface;
-  const CompiledSurface& met = *q.surfaces[surface].compiled;
-  if (start < 0 || start == static_cast<int>(surface) || !met.closed) return false;
+  if (start < 0 || start == static_cast<int>(surface) || !q.surfaces[surface].compiled->closed)
+    return accepted;
   const CompiledSurface& left = *q.surfaces[start].compiled;
-  if (!left.closed) return false;
+  if (!left.closed) return accepted;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
-  const auto contact = [&] { return contact_with_start(q, met, left, normal()); };
-  return accept_at_contact(*q.ray, local, frame, size, c, contact, t);
+  const auto contact = [&] { return contact_with_start(q, surface, normal()); };
+  return accept_at_contact(*q.ray, local, frame, size, c, accepted, contact, t);
 }
 
 // Takes one crossing into the query; `normal()` is the unit normal there. True when an occlusion query is

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "renderer/intersect/contact.h"
 #include "renderer/intersect/ellipsoid_fit.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -73,6 +74,9 @@ HWY_INLINE RayAnswer meet(const SphereTarget& target, const Ray& ray, double far
   // Where a ray has left another surface, what is just behind it may yet be met.
   if (!enters && ray.start.surface >= 0) return RayAnswer::unknown;
   if (!enters && !leaves) return RayAnswer::miss;
+  // And where it does so at this one, what is just ahead may not.
+  if (ray.start.surface >= 0 && t_enter * t_enter * length2 < contact_reach * contact_reach * target.radius2)
+    return RayAnswer::unknown;
   out.t = enters ? t_enter : t_leave;
   if (out.t > farthest) return RayAnswer::miss;
 

@@ -1,0 +1,53 @@
+// Where one closed surface touches another, which wall comes first is no matter of rounding.
+#pragma once
+
+#include "renderer/intersect/crossing.h"
+#include "renderer/intersect/query.h"
+
+namespace rondure {
+
+// How the surface that a crossing is of and the one that the ray starts on may touch: the crossing's is
+// beside, within or around the start's. Or they do not touch, but cross, or that cannot be told.
+enum class Contact { none, beside, within, around };
+
+// Surfaces that touch have the same normal there, or opposite ones, to within the square root of rounding, or
+// what the start's rounding moves it round a surface much smaller: half of the digits of a float.
+inline constexpr double contact_angle = 0x1p-10;
+// No contact is farther from the start than this, in sizes of the crossing's surface.
+inline constexpr double contact_reach = 0x1p-20;
+
+// `normal`: that of `surface`, where the query's ray meets it at its start. Both are closed.
+Contact contact_with_start(const Query& query, unsigned surface, const dvec3& normal);
+
+// Whether a ray that starts on one closed surface, of size `start_size`, meets another there, where they
+// touch or all but touch and rounding may have put the other's wall on either side of the start. The wall is
+// ahead where the ray goes on to it through the space between: of surfaces side by side it leaves the one and
+// goes into the other; of nested ones it goes from the outer into the inner, or from the inner out of the
+// outer. The other way about the ray has come through that wall already. `accepted` and `t`: what `accept`
+// says of the crossing, and what this does. `contact()` is asked last.
+template <class Ask>
+bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
+                       const Crossing& c, bool accepted, const Ask& contact, double& t) {
+  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
+  // the extent at least.
+  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
+  const double ahead_by = local.slide + c.s,
+               bound = std::fmin(c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent)),
+                                 contact_reach * c.extent * std::sqrt(local.inverse_length2));
+  if (!(std::fabs(ahead_by) <= bound) || ray.t_min > 0.0 || ray.t_max < 0.0 || c.likely == 0) return accepted;
+  const double leaving = glm::dot(ray.start.normal, local.direction);
+  const bool outward = leaving > -0x1p-50, inward = leaving < 0x1p-50;
+  const Contact how = contact();
+  if (how == Contact::none) return accepted;
+  const bool into = c.likely < 0;
+  const bool ahead = how == Contact::beside   ? into && outward
+                     : how == Contact::within ? into && inward
+                                              : !into && outward;
+  if (ahead && !accepted) t = 0.0;
+  const bool passed = how == Contact::beside   ? !into && inward
+                      : how == Contact::within ? !into && outward
+                                               : into && inward;
+  return ahead || (accepted && !passed);
+}
+
+}  // namespace rondure

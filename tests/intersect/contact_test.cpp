@@ -1,0 +1,189 @@
+// Closed surfaces that touch: a ray that has passed from one into the other meets neither wall again.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/placed.h"
+#include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
+
+using namespace rondure;
+
+namespace {
+
+// Six bilinear patches, outward.
+Surface box(const dvec3& low, const dvec3& high, const dmat3& turn) {
+  Surface out;
+  out.closed = true;
+  const dvec3 corner[2] = {low, high};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+      TensorNet net(1, 1);
+      for (int i = 0; i <= 1; ++i)
+        for (int j = 0; j <= 1; ++j) {
+          dvec3 p;
+          p[axis] = corner[side][axis];
+          p[b] = corner[side == 1 ? i : j][b], p[c] = corner[side == 1 ? j : i][c];
+          net.at(i, j) = dvec4(turn * p, 1.0);
+        }
+      out.patches.push_back(net);
+    }
+  return out;
+}
+
+dmat3 turn_about(const dvec3& axis, double angle) {
+  dmat3 out;
+  for (int k = 0; k < 3; ++k) {
+    dvec3 e(0.0);
+    e[k] = 1.0;
+    out[k] = std::cos(angle) * e + std::sin(angle) * glm::cross(axis, e) +
+             (1.0 - std::cos(angle)) * glm::dot(axis, e) * axis;
+  }
+  return out;
+}
+
+Surface ellipsoid(const dvec3& axes, const dvec3& center) {
+  Surface out;
+  out.ellipsoid = dmat3(axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z);
+  out.origin = center, out.closed = true;
+  return out;
+}
+
+struct Touching {
+  const char* name;
+  std::vector<TracedSurface> surfaces;
+  dvec3 at, across;  // the middle of the walls that they share, and their normal
+  double wide;       // of these
+};
+
+std::vector<Touching> touching() {
+  std::vector<Touching> out;
+  struct Corners {
+    dvec3 low, high;
+  };
+  struct Boxes {
+    const char* name;
+    std::vector<Corners> boxes;
+  };
+  const dvec3 all(1.0);
+  for (const double angle : {0.0, 0.7})
+    for (const Boxes& b :
+         {Boxes{"two boxes", {{-all, {1.0, 0.0, 1.0}}, {{-1.0, 0.0, -1.0}, all}}},
+          Boxes{"three", {{-all, {1, 0, 1}}, {{-1.0, 0.0, -1.0}, {1.0, 0.1, 1.0}}, {{-1.0, 0.1, -1.0}, all}}},
+          Boxes{"one in the other", {{{-1.0, 0.0, -1.0}, all}, {{-1.0, 0.0, -1.0}, {1.0, 0.5, 1.0}}}},
+          Boxes{"at a wall", {{{-1.0, 0.0, -1.0}, all}, {{-0.5, 0.0, -0.5}, {0.5, 0.5, 0.5}}}},
+          Boxes{"the same", {{{-1.0, 0.0, -1.0}, all}, {{-1.0, 0.0, -1.0}, all}}}}) {
+      const dmat3 turn = turn_about(glm::normalize(dvec3(3.0, -1.0, 2.0)), angle);
+      Touching next{b.name, {}, dvec3(0.0), turn[1], 0.45};
+      for (const Corners& c : b.boxes) next.surfaces.push_back({box(c.low, c.high, turn), Solver::newton});
+      out.push_back(next);
+    }
+  for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere"})"})
+    for (const Solver solver : {Solver::newton, Solver::quadric})
+      for (const double other : {-0.4, 0.4}) {
+        const Surface ball = build_family(family);
+        const auto tangent = [&](double radius) {
+          return TracedSurface{placed(ball, std::fabs(radius), radius * dvec3(2, 3, 6) / 7.0), solver};
+        };
+        out.push_back({family, {tangent(1.0), tangent(other)}, dvec3(0.0), dvec3(2, 3, 6) / 7.0, 1e-7});
+      }
+  return out;
+}
+
+}  // namespace
+
+// Walls in one place, and on either side of a surface: a ray goes through each once. (Where it meets several
+// at one t, which is named first may be a matter of rounding.)
+TEST_CASE("A wall that surfaces share is passed", "[hits]") {
+  std::mt19937_64 random(41);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  for (const Touching& scene : touching()) {
+    const Tracer tracer(scene.surfaces);
+    const std::size_t most = 2 * scene.surfaces.size();
+    long walks = 0, hits = 0, stuck = 0, repeated = 0, shadows = 0;
+    std::string first = "none";
+    for (int k = 0; k < 2000; ++k) {
+      dvec3 aside = scene.wide * part(random) * random_direction(random);
+      aside -= glm::dot(aside, scene.across) * scene.across;
+      dvec3 direction = random_direction(random);
+      if (k % 4 == 0) direction = (k % 8 == 0 ? 1.0 : -1.0) * scene.across;
+      if (std::fabs(glm::dot(direction, scene.across)) < 1e-2) continue;
+      Ray ray{scene.at + aside - 5.0 * direction, direction};
+      std::vector<std::array<int, 2>> seen;
+      std::string path;
+      bool again = false;
+      while (seen.size() <= most) {
+        const Hit hit = tracer.closest(ray);
+        shadows += tracer.occluded(ray) != static_cast<bool>(hit);
+        if (!hit) break;
+        const std::array<int, 2> wall = {hit.surface, glm::dot(hit.normal, direction) > 0.0};
+        again = again || std::find(seen.begin(), seen.end(), wall) != seen.end();
+        seen.push_back(wall);
+        path += fmt::format(" {}{} at {}", wall[1] ? "out of " : "into ", wall[0], hit.t);
+        ray = Ray{hit.point, direction, 0.0, INFINITY, {hit.surface, hit.normal}};
+      }
+      ++walks, hits += static_cast<long>(seen.size());
+      if (again && repeated++ == 0) first = path;
+      stuck += seen.size() > most;
+    }
+    INFO(scene.name << ": of " << walks << " walks, " << hits << " hits, " << stuck << " end nowhere, "
+                    << repeated << " pass a wall twice, the first" << first);
+    CHECK(stuck == 0);
+    CHECK(repeated == 0);
+    CHECK(shadows == 0);
+    CHECK(hits > 2 * walks);
+  }
+}
+
+// What touches within is what bends more, whatever is larger. From the outer one inward the inner is met at
+// once, from the inner one outward the outer; and no other way.
+TEST_CASE("Where ellipsoids touch, the one that bends more is within", "[hits]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  struct Second {
+    dvec3 axes, center;
+    bool within;  // the unit sphere, at (0, 0, 1)
+  };
+  for (const Second& second : {Second{dvec3(0.5), dvec3(0.0, 0.0, 0.5), true},
+                               {dvec3(1.5, 1.5, 5.0), dvec3(0.0, 0.0, -4.0), true},
+                               {dvec3(0.9, 0.9, 0.2), dvec3(0.0, 0.0, 0.8), false}}) {
+    const Tracer tracer({{ellipsoid(dvec3(1.0), dvec3(0.0)), Solver::newton},
+                         {ellipsoid(second.axes, second.center), Solver::newton}});
+    long due = 0, lost = 0, others = 0, wrong = 0;
+    for (int k = 0; k < 10'000; ++k) {
+      const int from = k % 2;
+      const dvec3 axes = from == 0 ? dvec3(1.0) : second.axes,
+                  center = from == 0 ? dvec3(0.0) : second.center;
+      const dvec3 beside = std::pow(10.0, -10.0 - 7.0 * part(random)) * random_direction(random),
+                  up = glm::normalize(dvec3(0.0, 0.0, 1.0) + beside),
+                  start = center + glm::normalize(up * axes) * axes,
+                  normal = glm::normalize((start - center) / (axes * axes));
+      const dvec3 direction = random_direction(random);
+      const double rise = glm::dot(direction, normal);
+      if (std::fabs(rise) < 1e-2) continue;
+      const Hit hit = tracer.closest({start, direction, 0.0, INFINITY, {from, normal}});
+      // Walls and start are within some ulps of 5, over the rise.
+      const bool at_once = hit && hit.surface != from && hit.t < 16.0 * 5.0 * 0x1p-52 / std::fabs(rise);
+      const bool starts_within = (from == 1) == second.within;
+      if (starts_within == (rise > 0.0))
+        ++due, lost += !at_once;
+      else
+        ++others, wrong += at_once;
+    }
+    INFO("semi-axes " << second.axes.x << ", " << second.axes.z << ": of " << due << " hits " << lost
+                      << " are lost; " << wrong << " of " << others << " others are met");
+    CHECK(lost == 0);
+    CHECK(wrong == 0);
+    CHECK(due > 4000);
+    CHECK(others > 4000);
+  }
+}
