@@ -41,7 +41,8 @@ void flush_output() {
 
 int run(int argc, char** argv) {
   hold_standard_descriptors();
-  std::signal(SIGPIPE, SIG_IGN);  // who no longer reads is an error like a full disk, and no sudden end
+  // Who no longer reads is an error like a full disk, and no sudden end; and so is a file that may not grow.
+  std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
   const CommandLine line = read_command_line(argc, argv);
   if (line.action) {
     Registry registry;

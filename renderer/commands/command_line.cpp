@@ -38,8 +38,22 @@ CLI::Validator not_empty(const char* complaint) {
   return CLI::Validator([complaint](const std::string& value) { return value.empty() ? complaint : ""; }, "");
 }
 
+// Larger numbers than 64 bits hold, which CLI11 takes for the largest that they do.
+CLI::Validator fits() {
+  return CLI::Validator(
+      [](const std::string& value) {
+        std::int64_t number;
+        const auto parsed = std::from_chars(value.data(), value.data() + value.size(), number);
+        return parsed.ec == std::errc::result_out_of_range
+                   ? fmt::format("takes a number up to {}, found {}", INT64_MAX, value)
+                   : "";
+      },
+      "");
+}
+
 void add_output(CLI::App& command, std::string& path, const char* what) {
-  command.add_option("-o,--output", path, fmt::format("{}; - for standard output (the default)", what));
+  command.add_option("-o,--output", path, fmt::format("{}; - for standard output (the default)", what))
+      ->check(not_empty("names no file; - is standard output"));
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
@@ -67,8 +81,14 @@ bool parse_resolution(const std::string& text, std::pair<std::int64_t, std::int6
 // --spp, --seed, --resolution WxH, --integrator, --normals, --layers.
 void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
   const CLI::Validator given = not_empty("has no value");
-  command.add_option("--spp", overrides.spp, "Samples per pixel")->type_name("N")->check(given);
-  command.add_option("--seed", overrides.seed, "Seed of the random numbers")->type_name("N")->check(given);
+  command.add_option("--spp", overrides.spp, "Samples per pixel")
+      ->type_name("N")
+      ->check(given)
+      ->check(fits());
+  command.add_option("--seed", overrides.seed, "Seed of the random numbers")
+      ->type_name("N")
+      ->check(given)
+      ->check(fits());
   command
       .add_option_function<std::string>(
           "--resolution",

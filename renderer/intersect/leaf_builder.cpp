@@ -148,6 +148,26 @@ void check_finite(const std::vector<dvec4>& points, int patch) {
       throw std::runtime_error(fmt::format("patch {}: a control point is not finite", patch));
 }
 
+// Beside a corner of next to no weight the net is as small, and its rounding is not: every ray would pass
+// there.
+void check_corners(const Net& net, int patch) {
+  constexpr double least = 1e-16;
+  double most = 0.0, lightest = INFINITY;
+  for (const dvec4& p : points_of(net)) most = std::fmax(most, std::fabs(p.w));
+  const auto corner = [&](const dvec4& p) { lightest = std::fmin(lightest, p.w); };
+  if (const auto* t = std::get_if<TensorNet>(&net)) {
+    corner(t->at(0, 0)), corner(t->at(0, t->n)), corner(t->at(t->m, 0)), corner(t->at(t->m, t->n));
+  } else {
+    const auto& triangle = std::get<TriangleNet>(net);
+    corner(triangle.at(0, 0)), corner(triangle.at(triangle.n, 0)), corner(triangle.at(0, triangle.n));
+  }
+  if (lightest > 0.0 && lightest < least * most)
+    throw std::runtime_error(
+        fmt::format("patch {}: the weight of a corner is {:.3g} of the largest, and less than {:g}, so that "
+                    "doubles do not tell where the patch is beside it",
+                    patch, lightest / most, least));
+}
+
 }  // namespace
 
 LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without) {
@@ -161,6 +181,7 @@ LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::
     const int patch = static_cast<int>(k);
     const std::vector<dvec4>& points = points_of(patches[k]);
     check_finite(points, patch);
+    check_corners(patches[k], patch);
     if (k < without.size() && without[k]) continue;
     const auto build = [&](auto shape, int degree, auto& scratch) {
       if (degree > max_degree)

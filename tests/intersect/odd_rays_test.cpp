@@ -189,6 +189,10 @@ TEST_CASE("Nets that cannot be bounded are refused by object and patch", "[hits]
   surface.patches[0] = grooved;
   CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}),
                     Catch::Matchers::StartsWith("object 0: patch 0: a weight is not positive near"));
+  net.points[3] *= -1e-17;
+  surface.patches[0] = net;
+  CHECK_THROWS_WITH(Tracer({{surface, Solver::newton}}),
+                    Catch::Matchers::StartsWith("object 0: patch 0: the weight of a corner is 1e-17 of the"));
   net.points[3].w = 1.0;
   net.points[2].x = no_number;
   surface.patches[0] = net;
