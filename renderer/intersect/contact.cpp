@@ -16,13 +16,14 @@ dmat3 bend_of(const PlacedSurface& surface, const PatchedSphere& sphere, const d
 // Which of two closed surfaces is within the other where they touch on the same side, `normal` being that of
 // both: the one that bends more. What is not known to be an ellipsoid, or is the other's equal, goes by its
 // size, and else by its place in the scene.
-Contact nested(const Query& q, unsigned surface, const dvec3& normal) {
-  const auto start = static_cast<unsigned>(q.ray->start.surface);
-  const CompiledSurface &met = *q.surfaces[surface].compiled, &left = *q.surfaces[start].compiled;
-  const PatchedSphere *const sphere = met.lone_sphere(), *const other = left.lone_sphere();
-  if (sphere && other) {
-    const dmat3 bend = bend_of(q.surfaces[surface], *sphere, q.ray->origin),
-                more = bend - bend_of(q.surfaces[start], *other, q.ray->origin);
+Contact nested(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
+  const PlacedSurface &mine = surfaces[wall.surface], &others = surfaces[other.surface];
+  const PatchedSphere *const sphere = mine.compiled->lone_sphere(), *const second =
+                                                                        others.compiled->lone_sphere();
+  if (sphere && second) {
+    const dvec3& normal = wall.normal;
+    const dmat3 bend = bend_of(mine, *sphere, wall.point),
+                more = bend - bend_of(others, *second, other.point);
     const dvec3 aside = std::fabs(normal.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0),
                 a = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, a);
     const double aa = glm::dot(a, more * a), ab = glm::dot(a, more * b), bb = glm::dot(b, more * b),
@@ -30,18 +31,40 @@ Contact nested(const Query& q, unsigned surface, const dvec3& normal) {
     if (det > least * least) return aa > 0.0 ? Contact::within : Contact::around;
     if (det < -least * least) return Contact::none;
   }
-  const double size = largest(met.bounds.high - met.bounds.low),
-               most = largest(left.bounds.high - left.bounds.low);
+  const auto size_of = [](const PlacedSurface& s) {
+    return largest(s.compiled->bounds.high - s.compiled->bounds.low);
+  };
+  const double size = size_of(mine), most = size_of(others);
   if (size != most) return size < most ? Contact::within : Contact::around;
-  return surface > start ? Contact::within : Contact::around;
+  return wall.surface > other.surface ? Contact::within : Contact::around;
 }
 
 }  // namespace
 
-Contact contact_with_start(const Query& q, unsigned surface, const dvec3& normal) {
-  const dvec3 apart = glm::cross(normal, q.ray->start.normal);
+Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
+  const dvec3 apart = glm::cross(wall.normal, other.normal);
   if (!(glm::dot(apart, apart) < contact_angle * contact_angle)) return Contact::none;
-  return glm::dot(normal, q.ray->start.normal) > 0.0 ? nested(q, surface, normal) : Contact::beside;
+  return glm::dot(wall.normal, other.normal) > 0.0 ? nested(surfaces, wall, other) : Contact::beside;
+}
+
+bool comes_first(const Query& q, const Hit& a, const Hit& b) {
+  if (a.surface == b.surface || !are_tied(a, b)) return nearer(a, b);
+  const auto wall = [](const Hit& hit) {
+    return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
+  };
+  const Wall mine = wall(a), other = wall(b);
+  if (!q.surfaces[mine.surface].compiled->closed || !q.surfaces[other.surface].compiled->closed)
+    return nearer(a, b);
+  const bool into = glm::dot(a.normal, q.ray->direction) < 0.0;
+  switch (contact_of(q.surfaces, mine, other)) {
+    case Contact::beside:
+    case Contact::within:
+      return !into;
+    case Contact::around:
+      return into;
+    default:
+      return nearer(a, b);
+  }
 }
 
 }  // namespace rondure

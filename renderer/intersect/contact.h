@@ -16,8 +16,29 @@ inline constexpr double contact_angle = 0x1p-10;
 // No contact is farther from the start than this, in sizes of the crossing's surface.
 inline constexpr double contact_reach = 0x1p-20;
 
-// `normal`: that of `surface`, where the query's ray meets it at its start. Both are closed.
-Contact contact_with_start(const Query& query, unsigned surface, const dvec3& normal);
+// A closed surface at a point of it.
+struct Wall {
+  unsigned surface;
+  dvec3 point, normal;
+};
+
+// How the first is to the second, where they are at one point.
+Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other);
+
+// How much further than a hit, in its errors, the traversal goes on: there may be others that are tied with
+// it.
+inline constexpr double tie_reach = 16.0;
+
+// Whether rounding does not tell which comes first.
+inline bool are_tied(const Hit& a, const Hit& b) {
+  const double less = std::min(a.t_error, b.t_error);
+  return std::fabs(a.t - b.t) <= std::min(a.t_error + b.t_error, tie_reach * less);
+}
+
+// Which of two hits of the query's ray comes first: the nearer one, but where closed surfaces touch the one
+// whose wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer
+// is entered first and the inner left first.
+bool comes_first(const Query& query, const Hit& a, const Hit& b);
 
 // Whether a ray that starts on one closed surface, of size `start_size`, meets another there, where they
 // touch or all but touch and rounding may have put the other's wall on either side of the start. The wall is

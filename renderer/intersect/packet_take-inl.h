@@ -37,11 +37,21 @@ HWY_INLINE void take(Packet& q, unsigned surface, const Leaf& leaf, const Newton
   const V place_error = two * shift + hn::Set(d, 0x1p-52) * hn::Abs(slide + place);
   const V t = (slide + place) * scale, t_error = place_error * scale, best = part(q.t, at);
   const M within = hn::And(hn::Ge(t, part(q.t_min, at)), hn::Le(t, part(q.t_max, at)));
-  // Which of two at the same t comes first is not for this to say.
   const M counts = hn::And(roots, hn::And(ordinary, within)), nearest = hn::And(counts, hn::Lt(t, best));
-  hand_back(q, hn::Or(hn::AndNot(ordinary, roots), hn::And(counts, hn::Eq(t, best))), far, at);
-  if (hn::AllFalse(d, nearest)) return;
+  // Which of two at the same t comes first is not for this to say, nor of two surfaces' that are tied.
   const hn::RebindToSigned<D> di;
+  M unclear = hn::Eq(t, best);
+  if (!q.target.alone) {  // as are_tied
+    const V best_error = part(q.t_error, at), less = hn::Min(t_error, best_error);
+    const auto named = hn::And(hn::BitCast(di, part(q.name, at)), hn::Set(di, std::int64_t{0xffffffff}));
+    const M others = hn::RebindMask(d, hn::Ne(named, hn::Set(di, static_cast<std::int64_t>(surface))));
+    const M met = hn::And(others, hn::Lt(best, hn::Set(d, INFINITY)));
+    unclear = hn::Or(
+        unclear,
+        hn::And(met, hn::Le(hn::Abs(t - best), hn::Min(t_error + best_error, hn::Set(d, tie_reach) * less))));
+  }
+  hand_back(q, hn::Or(hn::AndNot(ordinary, roots), hn::And(counts, unclear)), far, at);
+  if (hn::AllFalse(d, nearest)) return;
   const std::int64_t name = static_cast<std::int64_t>(leaf.patch) << 32 | static_cast<std::int64_t>(surface);
   const dvec3& frame = q.target.surfaces[surface].origin;
   set_part(q.t, at, nearest, t), set_part(q.t_error, at, nearest, t_error);
@@ -54,7 +64,8 @@ HWY_INLINE void take(Packet& q, unsigned surface, const Leaf& leaf, const Newton
       set_part(q.normal[1], at, nearest, across.y / length);
   set_part(q.normal[2], at, nearest, across.z / length);
   // As Entry::round_far.
-  const V ahead = hn::Max(((t + t_error) - part(q.far_origin, at)) * part(q.far_rate, at), zero);
+  const V ahead =
+      hn::Max(((t + hn::Set(d, tie_reach) * t_error) - part(q.far_origin, at)) * part(q.far_rate, at), zero);
   const auto lower = [&](std::size_t g, M lanes) HWY_ATTR {
     const hn::Rebind<float, D> df;
     const auto old = hn::LoadU(df, far.at(g)),

@@ -29,8 +29,23 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
   const CompiledSurface& left = *q.surfaces[start].compiled;
   if (!left.closed) return accepted;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
-  const auto contact = [&] { return contact_with_start(q, surface, normal()); };
+  const auto contact = [&] {
+    const dvec3& o = q.ray->origin;
+    return contact_of(q.surfaces, {surface, o, normal()},
+                      {static_cast<unsigned>(start), o, q.ray->start.normal});
+  };
   return accept_at_contact(*q.ray, local, frame, size, c, accepted, contact, t);
+}
+
+// Whether a hit cannot be the closest any more.
+bool is_beyond(const Query& q, double t) {
+  return q.mode == Mode::closest && q.best && t > q.best.t + tie_reach * q.best.t_error;
+}
+
+void take_if_first(Query& q, const Hit& hit, float& far) {
+  if (q.best && !comes_first(q, hit, q.best)) return;
+  q.best = hit;
+  far = std::min(far, q.entry.round_far(hit.t + tie_reach * hit.t_error));
 }
 
 // Takes one crossing into the query; `normal()` is the unit normal there. True when an occlusion query is
@@ -42,16 +57,15 @@ bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, c
   const dvec3& frame = q.surfaces[surface].origin;
   if (!is_hit(q, surface, q.local, c, normal, hit.t)) return false;
   if (q.mode == Mode::any) return true;
-  if (q.mode == Mode::closest && hit.t > q.best.t) return false;
+  if (is_beyond(q, hit.t)) return false;
   hit.t_error = c.s_error * q.local.scale;
   hit.surface = static_cast<int>(surface), hit.patch = patch, hit.u = uv.x, hit.v = uv.y;
   hit.point = frame + point, hit.normal = normal();
   if (q.mode == Mode::all) {
     q.hits->push_back(hit);
     q.signs->push_back(c.sign);
-  } else if (!q.best || nearer(hit, q.best)) {
-    q.best = hit;
-    far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
+  } else {
+    take_if_first(q, hit, far);
   }
   return false;
 }
@@ -120,7 +134,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       if (place || covers(sphere, nets, at, reach)) return true;
       continue;
     }
-    if (q.mode == Mode::closest && q.best && hit.t > q.best.t) return false;
+    if (is_beyond(q, hit.t)) return false;
     if (!place) place = place_on_sphere(sphere, nets, at, reach);
     if (!place) continue;
     hit.t_error = c.s_error * local.scale;
@@ -135,10 +149,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
       q.signs->push_back(c.sign);
       continue;
     }
-    if (!q.best || nearer(hit, q.best)) {
-      q.best = hit;
-      far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
-    }
+    take_if_first(q, hit, far);
   }
   return false;
 }
@@ -156,11 +167,9 @@ bool visit_lone_sphere(Query& q, unsigned surface, float& far) {
   }
   if (q.mode == Mode::closest) {
     Hit hit;
-    const RayAnswer answer = closest_on_sphere(target, *q.ray, q.best ? q.best.t : INFINITY, hit);
-    if (answer == RayAnswer::hit && (!q.best || nearer(hit, q.best))) {
-      q.best = hit;
-      far = std::min(far, q.entry.round_far(hit.t + hit.t_error));
-    }
+    const double farthest = q.best ? q.best.t + tie_reach * q.best.t_error : INFINITY;
+    const RayAnswer answer = closest_on_sphere(target, *q.ray, farthest, hit);
+    if (answer == RayAnswer::hit) take_if_first(q, hit, far);
     if (answer != RayAnswer::unknown) return false;
   }
   return visit_sphere(q, surface, sphere, far);
@@ -180,7 +189,7 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
   if (!localise(q, surface)) return false;
   const Hierarchy& hierarchy = *q.surfaces[surface].compiled->hierarchy;
   const Entry outer = q.entry;
-  const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max;
+  const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + tie_reach * q.best.t_error) : q.ray->t_max;
   if (!hierarchy.enter(q.local, q.ray->t_min, t_max, q.entry)) return false;
   q.instance = surface;
   bool settled = false;
@@ -189,7 +198,7 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
   else
     hierarchy.visit_all(q.local, q.entry, &q);
   q.entry = outer;
-  if (q.best) far = std::min(far, outer.round_far(q.best.t + q.best.t_error));
+  if (q.best) far = std::min(far, outer.round_far(q.best.t + tie_reach * q.best.t_error));
   return settled;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "renderer/intersect/contact.h"
 #include "renderer/intersect/newton_packets.h"
 #include "renderer/intersect/query.h"
 #include "renderer/intersect/short_ray.h"
@@ -212,7 +213,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
       std::all_of(self.placed.begin(), self.placed.end(),
                   [](const PlacedSurface& s) { return can_meet_packets(s); }))
     self.packets = PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
-                                leaves_apart * size * self.hierarchy->unit()};
+                                leaves_apart * size * self.hierarchy->unit(), count == 1};
 }
 
 Tracer::~Tracer() = default;
@@ -296,6 +297,9 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out.push_back(hits[k]);
     out_signs.push_back(signs[k]);
   }
+  for (std::size_t k = 1; k < out.size(); ++k)
+    for (std::size_t j = k; j > 0 && are_tied(out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]); --j)
+      std::swap(out[j], out[j - 1]);
   for (Hit& hit : out) implementation_->finish_hit(hit);
   return out;
 }
