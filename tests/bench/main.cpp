@@ -3,15 +3,20 @@
 // how fast scenes are built.
 //
 //   rondure_bench [ROUNDS] [--json FILE]
+//   rondure_bench [ROUNDS] --rows TEXT     the references, and the rows with that in their names, alone
 //   rondure_bench [ROUNDS] --scale COUNT   scenes of up to so many objects alone
-//   rondure_bench --count ROW        traces that row's incoherent rays once, for
-//   tests/bench/count_instructions
+//   rondure_bench --count ROW              traces that row's incoherent rays once, for
+//                                          tests/bench/count_instructions
 
 #include <fmt/core.h>
 
-#include <cstdlib>
-#include <cstring>
+#include <algorithm>
+#include <charconv>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/tracer.h"
@@ -167,18 +172,31 @@ int count(const std::string& name) {
   return 1;
 }
 
-int run(int argc, char** argv) {
+constexpr const char* usage =
+    "usage: rondure_bench [ROUNDS] [--json FILE | --rows TEXT | --scale COUNT], or rondure_bench --count "
+    "ROW\n";
+
+// A positive number, or 0.
+int number_in(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() ? std::max(number, 0) : 0;
+}
+
+int run(const std::vector<std::string>& arguments) {
   int rounds = 7;
-  std::string json;
-  for (int k = 1; k < argc; ++k) {
-    if (std::strcmp(argv[k], "--count") == 0 && k + 1 < argc) return count(argv[k + 1]);
-    if (std::strcmp(argv[k], "--scale") == 0 && k + 1 < argc)
-      return print_scale(rounds, std::atoi(argv[k + 1])), 0;
-    if (std::strcmp(argv[k], "--json") == 0 && k + 1 < argc)
-      json = argv[++k];
-    else
-      rounds = std::max(1, std::atoi(argv[k]));
+  std::string option, value;
+  std::size_t k = 0;
+  if (k < arguments.size() && number_in(arguments[k]) > 0) rounds = number_in(arguments[k++]);
+  if (k + 1 < arguments.size()) option = arguments[k], value = arguments[k + 1], k += 2;
+  const bool known = option.empty() || option == "--json" || option == "--rows" || option == "--count" ||
+                     option == "--scale";
+  if (k < arguments.size() || !known || (option == "--scale" && number_in(value) == 0)) {
+    fmt::print(stderr, usage);
+    return 1;
   }
+  if (option == "--count") return count(value);
+  if (option == "--scale") return print_scale(rounds, number_in(value)), 0;
   const Shapes shapes;
   const References references{"Embree SPHERE_POINT", "Embree SPHERE_POINT"};
   std::vector<Row> rows;
@@ -191,9 +209,14 @@ int run(int argc, char** argv) {
     add_baseline(rows, name, EmbreeBaseline::Kind::triangle_mesh, static_cast<std::size_t>(faces));
   for (std::vector<Row>& more : std::vector<std::vector<Row>>{rondure_rows(shapes), cad_rows()})
     for (Row& row : more) rows.push_back(std::move(row));
+  if (option == "--rows")
+    std::erase_if(rows, [&](const Row& row) {
+      return row.name != references.single && row.name.find(value) == std::string::npos;
+    });
   measure(rows, references, rounds);
   print_rows(rows);
-  if (!json.empty()) write_json(rows, json);
+  if (option == "--rows") return 0;
+  if (option == "--json") write_json(rows, value);
   print_steps(shapes);
   print_radial(rounds);
   print_newton(rounds);
@@ -205,4 +228,11 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace rondure::bench
 
-int main(int argc, char** argv) { return rondure::bench::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return rondure::bench::run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "rondure_bench: {}\n", error.what());
+    return 1;
+  }
+}
