@@ -18,7 +18,7 @@ constexpr double most_unequal = 4.0;
 constexpr int most_halvings = 1 << 9;
 
 template <class Shape>
-void find_in_parts(const Shape& shape, const std::vector<dvec4>& points, const LocalRay& ray,
+void find_in_parts(const Shape& shape, const std::vector<dvec4>& points, const LocalRay& ray, double rounding,
                    std::vector<Root>& roots) {
   const std::size_t count = points.size();
   dvec2 projected[max_net_size], size[max_net_size], part[max_net_size], scratch[2][max_net_size];
@@ -39,7 +39,7 @@ void find_in_parts(const Shape& shape, const std::vector<dvec4>& points, const L
       least = std::min(least, part[k].y);
     }
     if (scale.weight <= most_unequal * least || halvings == most_halvings) {
-      find_roots(shape, projected, cell, residual_bound(scale, ray), roots, counts);
+      find_roots(shape, projected, cell, rounding * residual_bound(scale, ray), roots, counts);
       continue;
     }
     typename Shape::Cell low, high;
@@ -51,16 +51,16 @@ void find_in_parts(const Shape& shape, const std::vector<dvec4>& points, const L
 
 }  // namespace
 
-std::optional<dvec2> search_direction(const Net& net, const dvec3& n) {
+std::optional<dvec2> search_direction(const Net& net, const dvec3& n, double rounding) {
   LocalRay ray;  // through the centre
   if (!set_direction(n, ray)) return std::nullopt;
   set_normals(ray);
   set_distances(ray);
   std::vector<Root> roots;
   if (const auto* tensor = std::get_if<TensorNet>(&net))
-    find_in_parts(TensorShape{tensor->m, tensor->n}, points_of(net), ray, roots);
+    find_in_parts(TensorShape{tensor->m, tensor->n}, points_of(net), ray, rounding, roots);
   else
-    find_in_parts(TriangleShape{std::get<TriangleNet>(net).n}, points_of(net), ray, roots);
+    find_in_parts(TriangleShape{std::get<TriangleNet>(net).n}, points_of(net), ray, rounding, roots);
   std::optional<dvec2> best;
   double least = 1e-6;
   for (Root root : roots) {

@@ -39,15 +39,19 @@ Image image_at(const PatchedSphere& sphere, const Net& net, dvec2 p) {
           image(dvec3(s.dv) - x * s.dv.w) / s.value.w};
 }
 
+// How many times more than about their own centre coordinates are rounded in the surface's frame.
+double rounding_of(const PatchedSphere& sphere) {
+  return 1.0 + largest(sphere.inverse_radius > 0.0 ? sphere.center * sphere.inverse_radius
+                                                   : sphere.ellipsoid.inverse * sphere.center);
+}
+
 // Whether the surface's point at (u, v), of a patch's boundary, is n to within rounding.
 bool shows(const PatchedSphere& sphere, const Net& net, dvec2 p, const dvec3& n, const Reach& reach) {
   const Image at = image_at(sphere, net, p);
   const double length2 = glm::dot(reach.direction, reach.direction);
   const dvec3 off = at.point - n;
   const double along = std::clamp(glm::dot(off, reach.direction) / length2, -reach.most, reach.most);
-  const dvec3 center = sphere.inverse_radius > 0.0 ? sphere.center * sphere.inverse_radius
-                                                   : sphere.ellipsoid.inverse * sphere.center;
-  const double bound = beside_roundoffs * unit_roundoff * (1.0 + largest(center)) +
+  const double bound = beside_roundoffs * unit_roundoff * rounding_of(sphere) +
                        unit_roundoff * (largest(at.du) + largest(at.dv));
   return largest(off - along * reach.direction) <= bound;
 }
@@ -160,7 +164,7 @@ std::optional<PlaceOnSphere> among_candidates(const PatchedSphere& sphere, const
     const SpherePatch& patch = all.patches[static_cast<std::size_t>(candidate->patch)];
     const std::int32_t name = sphere.name_of(candidate->patch);
     const Net& net = nets[static_cast<std::size_t>(name)];
-    const auto found = search_direction(image_of(sphere, net), n);
+    const auto found = search_direction(image_of(sphere, net), n, rounding_of(sphere));
     if (found && shows(sphere, net, *found, n, reach))
       return PlaceOnSphere{name, found->x, found->y, patch.outward};
   }
