@@ -62,6 +62,24 @@ FirstOrder<dvec2> projected(const Net& net, const LocalRay& ray, dvec2 p) {
   return {project(ray, s.value), project(ray, s.du), project(ray, s.dv)};
 }
 
+// One step of Newton's method for the strong equation alone, within the domain. What a side takes of it, the
+// parameter along that side makes up for: a step that is only cut off closes in on the side's best point as
+// slowly as the two slopes are unlike, and is left beside it. Not where the side is collapsed.
+template <class Shape>
+dvec2 correct_strong(const Net& net, const LocalRay& ray, dvec2 p) {
+  const FirstOrder<dvec2> at = projected(net, ray, p);
+  const dvec2 strong = strong_direction(at.du, at.dv),
+              slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
+  const double steepness = glm::dot(slope, slope);
+  if (!(steepness > 0.0)) return p;
+  const dvec2 full = p - slope * (glm::dot(strong, extended_residual(net, ray, p)) / steepness);
+  p = Shape::clamp(full);
+  if (!(Shape::outside(full) > 0.0)) return p;
+  const dvec2 along = Shape::boundary_direction(full);
+  const double step = quotient(glm::dot(strong, extended_residual(net, ray, p)), glm::dot(slope, along));
+  return std::fabs(step) < reach ? Shape::clamp(p - step * along) : p;
+}
+
 // Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch
 // hardly moves, and curvature throws it off the other equation; so each trial step, shortened until it helps,
 // is followed by a correction of the strong equation alone. Kept only when the residual falls; done when it
@@ -80,13 +98,7 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
     // The last trial is the correction alone.
     for (double part = std::fmin(1.0, quotient(0.5, length)); !better; part *= 0.25) {
       if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
-      dvec2 q = Shape::clamp(p - part * full);
-      const FirstOrder<dvec2> at = projected(net, ray, q);
-      const dvec2 strong = strong_direction(at.du, at.dv),
-                  slope(glm::dot(strong, at.du), glm::dot(strong, at.dv));
-      const double steepness = glm::dot(slope, slope);
-      if (steepness > 0.0)
-        q = Shape::clamp(q - slope * (glm::dot(strong, extended_residual(net, ray, q)) / steepness));
+      const dvec2 q = correct_strong<Shape>(net, ray, Shape::clamp(p - part * full));
       const dvec2 next = extended_residual(net, ray, q);
       better = glm::dot(next, next) < glm::dot(f, f);
       if (better) p = q, f = next;
