@@ -60,6 +60,16 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
   return compiled;
 }
 
+bool can_cluster(const CompiledSurface& compiled) {
+  const std::size_t leaves = compiled.set.leaves.size();
+  return !compiled.hierarchy && compiled.spheres.empty() && leaves > 1 && leaves <= LeafCluster::most_leaves;
+}
+
+void make_cluster(CompiledSurface& compiled) {
+  compiled.cluster = LeafCluster(compiled.set.boxes);
+  compiled.set.boxes = {};
+}
+
 std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled) {
   if (compiled.set.boxes.size() < 2) return nullptr;
   const dvec3 center = compiled.bounds.center();

@@ -35,18 +35,19 @@ struct QueryContext {
 struct GeometryData {
   Handover there, back;           // around the commit
   const std::vector<Box>* boxes;  // the caller's, and read during the commit only
-  std::vector<LeafName> names;  // none where leaf k is surface k, a sphere: one place in memory less to go to
+  std::vector<LeafName> names;    // none where leaf k is all of surface k: one place in memory less to go to
+  unsigned all_of_each;           // what it is then called
   double pad;
   EmbreeScene::Visitor visitor;
 
-  LeafName name_of(unsigned leaf) const {
-    return names.empty() ? LeafName{leaf, LeafName::sphere} : names[leaf];
-  }
+  LeafName name_of(unsigned leaf) const { return names.empty() ? LeafName{leaf, all_of_each} : names[leaf]; }
 };
 
-bool are_all_spheres(const std::vector<LeafName>& names) {
+// Whether they are all of surfaces 0, 1, ..., by one name.
+bool are_whole_surfaces(const std::vector<LeafName>& names) {
   for (unsigned k = 0; k < names.size(); ++k)
-    if (names[k].surface != k || names[k].leaf != LeafName::sphere) return false;
+    if (names[k].surface != k || names[k].leaf < LeafName::cluster || names[k].leaf != names[0].leaf)
+      return false;
   return true;
 }
 
@@ -196,8 +197,9 @@ EmbreeScene::EmbreeScene(const std::vector<Box>& boxes, std::vector<LeafName> na
   self.memory.there.give();
   rtcSetDeviceMemoryMonitorFunction(self.device, count_memory, &self.memory);
   self.scene = rtcNewScene(self.device);
-  if (are_all_spheres(names)) names = {};
-  self.data = {{}, {}, &boxes, std::move(names), 0x1p-19 * radius, visitor};
+  const unsigned all_of_each = names.empty() ? LeafName::whole : names[0].leaf;
+  if (are_whole_surfaces(names)) names = {};
+  self.data = {{}, {}, &boxes, std::move(names), all_of_each, 0x1p-19 * radius, visitor};
   RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, &self.data);

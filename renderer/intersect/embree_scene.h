@@ -18,10 +18,10 @@
 
 namespace rondure {
 
-// A leaf of a surface. `whole`: all of the surface, which has a hierarchy of its own; `sphere`: all of it,
-// being a sphere.
+// A leaf of a surface. `whole`: all of the surface, which has a hierarchy of its own; `cluster`: all of it,
+// as a cluster of leaves; `sphere`: all of it, being a sphere.
 struct LeafName {
-  static constexpr unsigned whole = ~0u, sphere = ~1u;
+  static constexpr unsigned whole = ~0u, sphere = ~1u, cluster = ~2u;
   unsigned surface, leaf;
 };
 

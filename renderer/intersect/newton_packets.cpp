@@ -40,6 +40,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "renderer/intersect/newton_arithmetic-inl.h"
 #include "renderer/intersect/newton_lanes-inl.h"
 #include "renderer/intersect/packet_rays-inl.h"
+#include "renderer/intersect/packet_slabs-inl.h"
 #include "renderer/intersect/packet_take-inl.h"
 #undef INLINE_FOR_THIS_SET
 
@@ -221,16 +222,12 @@ Solve solve_of(const NewtonPatch& patch) {
   }
 }
 
-void visit_wide(void* query, unsigned surface, unsigned index, std::size_t first, std::size_t count,
-                const int* valid, float* limits) noexcept {
-  const Limits far{limits, first};
+// `valid` and `far`: as the traversal gives them, of `count` rays.
+void visit_leaf(Packet& q, unsigned surface, unsigned index, const Limits& far, std::size_t count,
+                const int* valid) {
   const D d;
-  Packet& q = *static_cast<Packet*>(query);
+  const std::size_t first = far.first;
   const CompiledSurface& compiled = *q.target.surfaces[surface].compiled;
-  if (!q.target.one_frame && q.local_surface != surface) {
-    q.local_surface = surface;
-    for (std::size_t g = 0; g < width; g += lane_count) set_base_of(q, q.target.surfaces[surface].origin, g);
-  }
   const Leaf& leaf = compiled.set.leaves[index];
   const NewtonPatch& patch = compiled.patches[static_cast<std::size_t>(leaf.patch)];
   const Solve solve_lanes = solve_of(patch);
@@ -261,6 +258,30 @@ void visit_wide(void* query, unsigned surface, unsigned index, std::size_t first
     }
   }
   if (!hn::AllFalse(d, waiting)) solve_lanes(q, surface, leaf, patch, waiting_view, waiting, far, at);
+}
+
+void visit_wide(void* query, unsigned surface, unsigned index, std::size_t first, std::size_t count,
+                const int* valid, float* limits) noexcept {
+  const D d;
+  const Limits far{limits, first};
+  Packet& q = *static_cast<Packet*>(query);
+  if (!q.target.one_frame && q.local_surface != surface) {
+    q.local_surface = surface;
+    for (std::size_t g = 0; g < width; g += lane_count) set_base_of(q, q.target.surfaces[surface].origin, g);
+  }
+  if (index != LeafName::cluster) {
+    visit_leaf(q, surface, index, far, count, valid);
+    return;
+  }
+  const LeafCluster& cluster = q.target.surfaces[surface].compiled->cluster;
+  const hn::Rebind<std::int32_t, D> di;
+  Corridor corridor;
+  for (std::size_t g = first; g < first + count; g += lane_count) {
+    const V asked = hn::PromoteTo(d, hn::LoadU(di, valid + (g - first)));
+    corridor.add(q, cluster, hn::And(hn::Lt(asked, hn::Zero(d)), is_open(q, g)), g);
+  }
+  cluster.visit([&](const Box& box) HWY_ATTR { return corridor.meets(box); },
+                [&](unsigned leaf) HWY_ATTR { visit_leaf(q, surface, leaf, far, count, valid); });
 }
 
 void closest_wide(const PacketTarget& target, const Ray* rays, std::size_t count, Hit* hits,

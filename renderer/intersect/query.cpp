@@ -232,8 +232,10 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
     if (verdict == NewtonVerdict::none) return false;
   }
   // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
-  // every ray by; in double the leaf's own box does not.
-  if (!meets_box(q.local, inverse_of(q.local.direction), compiled.set.boxes[leaf_index])) return false;
+  // every ray by; in double the leaf's own box does not. (A cluster's are in double.)
+  if (compiled.cluster.empty() &&
+      !meets_box(q.local, inverse_of(q.local.direction), compiled.set.boxes[leaf_index]))
+    return false;
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
   roots.clear();
   if (leaf_index >= ordinary)
@@ -242,6 +244,48 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
     search_leaf(leaf, net, q.local, roots, *q.counts);
   for (const Root& root : roots)
     if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), far)) return true;
+  return false;
+}
+
+// From memory, in good time.
+template <class T>
+void fetch(std::span<const T> from) {
+  constexpr std::size_t line = 64;
+  const auto bytes = std::as_bytes(from);
+  for (std::size_t at = 0; at < bytes.size(); at += line) __builtin_prefetch(bytes.data() + at);
+}
+
+// What the leaves that a ray may meet have to be met with. Waiting for one after the other would take longer
+// than all else.
+void fetch_leaves(const CompiledSurface& compiled, std::span<const LeafCluster::Met> met) {
+  if (met.empty()) return;
+  for (const LeafCluster::Met& m : met) fetch(std::span<const Leaf>(&compiled.set.leaves[m.leaf], 1));
+  fetch(std::span<const NewtonPatch>(compiled.patches));
+  fetch(std::span<const Net>(*compiled.nets));
+  const auto patch = static_cast<std::size_t>(compiled.set.leaves[met[0].leaf].patch);
+  fetch(std::span<const dvec4>(points_of((*compiled.nets)[patch])));
+}
+
+// A surface whose leaves are a cluster.
+bool visit_cluster(Query& q, unsigned surface, float& far) {
+  fetch(q.surfaces[surface].boxes);
+  const CompiledSurface& compiled = *q.surfaces[surface].compiled;
+  constexpr std::size_t hot = offsetof(CompiledSurface, spheres);
+  fetch(std::span(reinterpret_cast<const std::byte*>(&compiled), hot));
+  if (!localise(q, surface)) return false;
+  const auto step_at = [&](double t) { return t * q.local.inverse_scale - q.local.slide; };
+  const auto end = [&] { return q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max; };
+  LeafCluster::AllMet met;
+  const std::size_t count = compiled.cluster.meet(q.local, step_at(q.ray->t_min), step_at(end()), met);
+  constexpr std::size_t few = 3;  // are soon needed
+  fetch_leaves(compiled, std::span(met).first(std::min(count, few)));
+  double last = INFINITY;
+  for (std::size_t k = 0; k < count && met[k].enter <= last; ++k) {
+    const double before = q.best.t;
+    if (visit_net(q, surface, met[k].leaf, far)) return true;
+    if (q.mode == Mode::closest && q.best && q.best.t != before)
+      last = compiled.cluster.last_step(q.local, step_at(end()));
+  }
   return false;
 }
 
@@ -282,6 +326,7 @@ bool visit_shared_leaf(void* pointer, unsigned, unsigned leaf, float& far) noexc
 bool visit_by_name(void* pointer, unsigned surface, unsigned leaf, float& far) noexcept {
   Query& q = *static_cast<Query*>(pointer);
   if (leaf == LeafName::sphere) return visit_lone_sphere(q, surface, far);
+  if (leaf == LeafName::cluster) return visit_cluster(q, surface, far);
   return leaf == LeafName::whole ? visit_instance(q, surface, far) : visit_leaf(q, surface, leaf, far);
 }
 

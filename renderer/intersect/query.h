@@ -1,6 +1,7 @@
 // One ray's way through the surfaces: what has been found so far, and how a leaf adds to it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/hierarchy.h"
 #include "renderer/intersect/leaf.h"
+#include "renderer/intersect/leaf_cluster.h"
 #include "renderer/intersect/patched_spheres.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/intersect/solve_leaf.h"
@@ -18,17 +20,18 @@ namespace rondure {
 
 // What a solver needs of one surface, beside its nets.
 struct CompiledSurface {
-  LeafSet set;  // one box and no leaf for an analytic surface
-  Box bounds;   // of all leaves
+  LeafSet set;          // one box and no leaf for an analytic surface; no box where there is a cluster
+  LeafCluster cluster;  // of the leaves, where there are many small surfaces
+  const std::vector<Net>* nets = nullptr;
+  std::vector<NewtonPatch> patches;  // of the nets, where there are leaves
+  Solver solver = Solver::newton;
   bool closed = false;
   std::vector<RadialPiece> radial;         // of the last leaves
   std::span<const PatchedSphere> spheres;  // of the boxes after all leaves
   // The surface itself, in place of patches; a sphere where that has a radius.
   std::unique_ptr<const PatchedSphere> analytic;
   std::unique_ptr<Hierarchy> hierarchy;  // of the leaves, where several surfaces share them
-  const std::vector<Net>* nets = nullptr;
-  std::vector<NewtonPatch> patches;  // of the nets, where there are leaves
-  Solver solver = Solver::newton;
+  Box bounds;                            // of all leaves
 
   // The one sphere or ellipsoid that is all.
   const PatchedSphere* lone_sphere() const {
@@ -45,7 +48,12 @@ struct PlacedSurface {
   dvec3 origin{0.0};
   const PatchedSphere* sphere = nullptr;  // where that, and no other ellipsoid, is all
   const CompiledSurface* compiled = nullptr;
+  std::span<const std::byte> boxes;  // of its cluster: what a ray needs first, and has to wait for
 };
+
+// Whether the surface's boxes are few and each a leaf's.
+bool can_cluster(const CompiledSurface& compiled);
+void make_cluster(CompiledSurface& compiled);
 
 // Of the leaves of surfaces that share them; none of a single leaf.
 std::unique_ptr<Hierarchy> hierarchy_of(const CompiledSurface& compiled);

@@ -101,6 +101,8 @@ constexpr int deepest = 11, shallowest = 2;
 // Packets do not pay for fewer rays, nor where these are so many leaves apart.
 constexpr std::size_t few_rays = 4;
 constexpr double leaves_apart = 4.0;
+// Beyond so many leaves of small surfaces these are met surface by surface (leaf_cluster.h).
+constexpr std::size_t clustered_leaves = 1 << 18;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
@@ -160,17 +162,26 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   for (std::size_t k = 0; k < firsts.size(); ++k)
     if (!errors[k].empty()) throw SurfaceError(firsts[k], errors[k]);
 
+  std::size_t leaves = 0;
+  for (const CompiledSurface& compiled : self.distinct)
+    if (can_cluster(compiled)) leaves += compiled.set.leaves.size();
+  for (const CompiledSurface& compiled : self.distinct) self.leaf_count += compiled.set.boxes.size();
+  if (leaves > clustered_leaves)
+    parallel_for(self.distinct.size(), [&](std::size_t k) {
+      if (can_cluster(self.distinct[k])) make_cluster(self.distinct[k]);
+    });
+
   Box world;
   for (unsigned k = 0; k < count; ++k) {
     PlacedSurface& placed = self.placed[k];
     placed.compiled = self.placed[twins[k]].compiled;
     placed.origin = self.surfaces[k].surface.origin;
+    placed.boxes = placed.compiled->cluster.memory();
     const CompiledSurface& compiled = *placed.compiled;
     if (const PatchedSphere* sphere = compiled.lone_sphere(); sphere && sphere->radius > 0.0)
       placed.sphere = sphere;
     if (const Box& bounds = compiled.bounds; !bounds.empty())
       world.add(Box{bounds.low + placed.origin, bounds.high + placed.origin});
-    if (twins[k] == k) self.leaf_count += compiled.set.boxes.size();
   }
   if (world.empty()) return;
   // A common origin that is in the middle, or nearly, spares each ray a second local form.
@@ -180,9 +191,15 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
                                      [&](const PlacedSurface& p) { return p.origin == common; });
   self.one_frame = all_there && glm::distance(common, center) < 0x1p-4 * glm::distance(world.low, world.high);
   if (self.one_frame) center = common;
-  const auto is_one = [](const PlacedSurface& s) { return s.compiled->hierarchy || s.sphere; };
+  const auto name_of_all = [](const PlacedSurface& s) {
+    return s.sphere                       ? LeafName::sphere
+           : s.compiled->hierarchy        ? LeafName::whole
+           : !s.compiled->cluster.empty() ? LeafName::cluster
+                                          : 0;
+  };
   std::size_t box_count = 0;
-  for (const PlacedSurface& s : self.placed) box_count += is_one(s) ? 1 : s.compiled->set.boxes.size();
+  for (const PlacedSurface& s : self.placed)
+    box_count += name_of_all(s) != 0 ? 1 : s.compiled->set.boxes.size();
   std::vector<Box> boxes;
   std::vector<LeafName> names;
   boxes.reserve(box_count), names.reserve(box_count);
@@ -193,8 +210,8 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
       boxes.push_back({box.low + shift, box.high + shift});
       names.push_back({k, leaf});
     };
-    if (is_one(self.placed[k])) {
-      add(compiled.bounds, self.placed[k].sphere ? LeafName::sphere : LeafName::whole);
+    if (const unsigned name = name_of_all(self.placed[k]); name != 0) {
+      add(compiled.bounds, name);
       continue;
     }
     for (unsigned leaf = 0; leaf < compiled.set.boxes.size(); ++leaf) add(compiled.set.boxes[leaf], leaf);
@@ -324,7 +341,9 @@ TracerStatistics Tracer::statistics() const {
   }
   std::unordered_set<const SpherePatches*> shared;
   for (const CompiledSurface& compiled : self.distinct) {
-    s.bytes += sizeof(CompiledSurface) + compiled.set.leaves.size() * (sizeof(Leaf) + sizeof(Box));
+    s.bytes += sizeof(CompiledSurface) + compiled.set.leaves.size() * sizeof(Leaf) +
+               compiled.set.boxes.size() * sizeof(Box) + compiled.cluster.memory().size() +
+               compiled.patches.size() * sizeof(NewtonPatch);
     for (const PatchedSphere& sphere : compiled.spheres) {
       s.bytes += sizeof(sphere) + sphere.names.size() * sizeof(sphere.names[0]);
       if (shared.insert(sphere.patches.get()).second) s.bytes += sphere.patches->bytes();
