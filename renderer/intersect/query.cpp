@@ -270,8 +270,7 @@ void fetch_leaves(const CompiledSurface& compiled, std::span<const LeafCluster::
 bool visit_cluster(Query& q, unsigned surface, float& far) {
   fetch(q.surfaces[surface].boxes);
   const CompiledSurface& compiled = *q.surfaces[surface].compiled;
-  constexpr std::size_t hot = offsetof(CompiledSurface, spheres);
-  fetch(std::span(reinterpret_cast<const std::byte*>(&compiled), hot));
+  fetch(std::span<const CompiledSurface>(&compiled, 1));
   if (!localise(q, surface)) return false;
   const auto step_at = [&](double t) { return t * q.local.inverse_scale - q.local.slide; };
   const auto end = [&] { return q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max; };
