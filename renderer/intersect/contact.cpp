@@ -13,6 +13,8 @@ dmat3 bend_of(const PlacedSurface& surface, const PatchedSphere& sphere, const d
   return (1.0 / glm::length(form * (point - surface.origin - sphere.center))) * form;
 }
 
+double size_of(const PlacedSurface& s) { return largest(s.compiled->bounds.high - s.compiled->bounds.low); }
+
 // Which of two closed surfaces is within the other where they touch on the same side, `normal` being that of
 // both: the one that bends more. What is not known to be an ellipsoid, or is the other's equal, goes by its
 // size, and else by its place in the scene.
@@ -31,9 +33,6 @@ Contact nested(const PlacedSurface* surfaces, const Wall& wall, const Wall& othe
     if (det > least * least) return aa > 0.0 ? Contact::within : Contact::around;
     if (det < -least * least) return Contact::none;
   }
-  const auto size_of = [](const PlacedSurface& s) {
-    return largest(s.compiled->bounds.high - s.compiled->bounds.low);
-  };
   const double size = size_of(mine), most = size_of(others);
   if (size != most) return size < most ? Contact::within : Contact::around;
   return wall.surface > other.surface ? Contact::within : Contact::around;
@@ -53,8 +52,11 @@ bool comes_first(const Query& q, const Hit& a, const Hit& b) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };
   const Wall mine = wall(a), other = wall(b);
-  if (!q.surfaces[mine.surface].compiled->closed || !q.surfaces[other.surface].compiled->closed)
-    return nearer(a, b);
+  const PlacedSurface &first = q.surfaces[mine.surface], &second = q.surfaces[other.surface];
+  if (!first.compiled->closed || !second.compiled->closed) return nearer(a, b);
+  // From so far away that t does not tell one side of a surface from the other, points still do.
+  const double apart = contact_reach * std::min(size_of(first), size_of(second));
+  if (!(largest(a.point - b.point) <= apart)) return nearer(a, b);
   const bool into = glm::dot(a.normal, q.ray->direction) < 0.0;
   switch (contact_of(q.surfaces, mine, other)) {
     case Contact::beside:

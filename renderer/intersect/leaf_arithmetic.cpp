@@ -59,9 +59,9 @@ double part(int k, int n) { return static_cast<double>(k) / n; }
 LeafParameters parameters_of(const TensorShape& shape) {
   LeafParameters out;
   out.has_squares = shape.m > 1 && shape.n > 1;
-  const auto square = [](int n, double t) {  // (t - 1/2)^2 less its value at the coefficient's place
+  const auto square = [&](int n, double t) {  // (t - 1/2)^2 less its value at the coefficient's place
     const double a = t - 0.5;
-    return a * a - t * (1.0 - t) / (n - 1);
+    return out.has_squares ? a * a - t * (1.0 - t) / (n - 1) : 0.0;
   };
   for (int i = 0; i <= shape.m; ++i)
     for (int j = 0; j <= shape.n; ++j) {
@@ -75,7 +75,7 @@ LeafParameters parameters_of(const TensorShape& shape) {
 LeafParameters parameters_of(const TriangleShape& shape) {
   LeafParameters out;
   out.has_squares = shape.n > 1;
-  const double rest = 1.0 / (shape.n - 1.0);
+  const double rest = out.has_squares ? 1.0 / (shape.n - 1.0) : 0.0;
   for (int i = 0; i <= shape.n; ++i)
     for (int j = 0; j <= shape.n - i; ++j) {
       const double u = part(i, shape.n), v = part(j, shape.n);
