@@ -25,6 +25,15 @@ Box box_of(const PatchedSphere& sphere, const std::vector<Net>& nets) {
 
 }  // namespace
 
+void bring_near_one(Net& net) {
+  double most = 0.0;
+  for (const dvec4& p : points_of(net)) most = std::max(most, std::fabs(p.w));
+  if (!(most > 0.0 && std::isfinite(most)) || (most > 0x1p-100 && most < 0x1p100)) return;
+  const int exponent = std::ilogb(most);
+  for (dvec4& p : points_of(net))
+    for (int k = 0; k < 4; ++k) p[k] = std::ldexp(p[k], -exponent);
+}
+
 CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpheres found) {
   const Surface& surface = traced.surface;
   CompiledSurface compiled;

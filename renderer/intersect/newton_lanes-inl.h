@@ -56,3 +56,30 @@ HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
 HWY_INLINE V largest_of(const Vector& a) {
   return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
 }
+
+// A patch whose degrees are known when compiling, or `dynamic`.
+template <int DegreeU, int DegreeV>
+struct LaneRectangle {
+  static constexpr bool rectangle = true;
+  const NewtonPatch& patch;
+  HWY_ATTR HWY_INLINE bool bends() const { return patch.m > 1 && patch.n > 1; }
+  HWY_ATTR PointJet<Lanes> first(Pair<Lanes> p) const {
+    return first_order<DegreeU, DegreeV, Lanes>(patch.points, patch.m, patch.n, p.x, p.y);
+  }
+  HWY_ATTR PointBend<Lanes> second(Pair<Lanes> p) const {
+    return second_order<DegreeU, DegreeV, Lanes>(patch.points, patch.m, patch.n, p.x, p.y);
+  }
+};
+
+template <int Degree>
+struct LaneTriangle {
+  static constexpr bool rectangle = false;
+  const NewtonPatch& patch;
+  HWY_ATTR HWY_INLINE bool bends() const { return patch.m > 1; }
+  HWY_ATTR PointJet<Lanes> first(Pair<Lanes> p) const {
+    return first_order<Degree, Lanes>(patch.points, patch.m, p.x, p.y);
+  }
+  HWY_ATTR PointBend<Lanes> second(Pair<Lanes> p) const {
+    return second_order<Degree, Lanes>(patch.points, patch.m, p.x, p.y);
+  }
+};

@@ -44,33 +44,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "renderer/intersect/packet_take-inl.h"
 #undef INLINE_FOR_THIS_SET
 
-// A patch whose degrees are known when compiling, or `dynamic`.
-template <int DegreeU, int DegreeV>
-struct LaneRectangle {
-  static constexpr bool rectangle = true;
-  const NewtonPatch& patch;
-  HWY_ATTR HWY_INLINE bool bends() const { return patch.m > 1 && patch.n > 1; }
-  HWY_ATTR PointJet<Lanes> first(Pair<Lanes> p) const {
-    return first_order<DegreeU, DegreeV, Lanes>(patch.points, patch.m, patch.n, p.x, p.y);
-  }
-  HWY_ATTR PointBend<Lanes> second(Pair<Lanes> p) const {
-    return second_order<DegreeU, DegreeV, Lanes>(patch.points, patch.m, patch.n, p.x, p.y);
-  }
-};
-
-template <int Degree>
-struct LaneTriangle {
-  static constexpr bool rectangle = false;
-  const NewtonPatch& patch;
-  HWY_ATTR HWY_INLINE bool bends() const { return patch.m > 1; }
-  HWY_ATTR PointJet<Lanes> first(Pair<Lanes> p) const {
-    return first_order<Degree, Lanes>(patch.points, patch.m, p.x, p.y);
-  }
-  HWY_ATTR PointBend<Lanes> second(Pair<Lanes> p) const {
-    return second_order<Degree, Lanes>(patch.points, patch.m, p.x, p.y);
-  }
-};
-
 // A leaf as seen by as many rays as there are lanes.
 struct View {
   FramedRay<Lanes> ray;

@@ -42,6 +42,11 @@ bool is_beyond(const Query& q, double t) {
   return q.mode == Mode::closest && q.best && t > q.best.t + tie_reach * q.best.t_error;
 }
 
+// Where on the ray the search ends.
+double end_of(const Query& q) {
+  return q.best ? std::min(q.ray->t_max, q.best.t + tie_reach * q.best.t_error) : q.ray->t_max;
+}
+
 void take_if_first(Query& q, const Hit& hit, float& far) {
   if (q.best && !comes_first(q, hit, q.best)) return;
   q.best = hit;
@@ -189,8 +194,7 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
   if (!localise(q, surface)) return false;
   const Hierarchy& hierarchy = *q.surfaces[surface].compiled->hierarchy;
   const Entry outer = q.entry;
-  const double t_max = q.best ? std::min(q.ray->t_max, q.best.t + tie_reach * q.best.t_error) : q.ray->t_max;
-  if (!hierarchy.enter(q.local, q.ray->t_min, t_max, q.entry)) return false;
+  if (!hierarchy.enter(q.local, q.ray->t_min, end_of(q), q.entry)) return false;
   q.instance = surface;
   bool settled = false;
   if (q.mode == Mode::any)
@@ -273,9 +277,8 @@ bool visit_cluster(Query& q, unsigned surface, float& far) {
   fetch(std::span<const CompiledSurface>(&compiled, 1));
   if (!localise(q, surface)) return false;
   const auto step_at = [&](double t) { return t * q.local.inverse_scale - q.local.slide; };
-  const auto end = [&] { return q.best ? std::min(q.ray->t_max, q.best.t + q.best.t_error) : q.ray->t_max; };
   LeafCluster::AllMet met;
-  const std::size_t count = compiled.cluster.meet(q.local, step_at(q.ray->t_min), step_at(end()), met);
+  const std::size_t count = compiled.cluster.meet(q.local, step_at(q.ray->t_min), step_at(end_of(q)), met);
   constexpr std::size_t few = 3;  // are soon needed
   fetch_leaves(compiled, std::span(met).first(std::min(count, few)));
   double last = INFINITY;
@@ -283,7 +286,7 @@ bool visit_cluster(Query& q, unsigned surface, float& far) {
     const double before = q.best.t;
     if (visit_net(q, surface, met[k].leaf, far)) return true;
     if (q.mode == Mode::closest && q.best && q.best.t != before)
-      last = compiled.cluster.last_step(q.local, step_at(end()));
+      last = compiled.cluster.last_step(q.local, step_at(end_of(q)));
   }
   return false;
 }

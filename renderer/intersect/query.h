@@ -39,6 +39,10 @@ struct CompiledSurface {
   }
 };
 
+// A net whose weights are so small or large that products of two of their size would leave the numbers, in
+// units of its largest: a power of two, so that the surface and its points stay the same bits.
+void bring_near_one(Net& net);
+
 // Throws std::runtime_error where a net cannot be bounded. `max_depth`: halvings of a patch. `found`: what
 // its patches lie on, if that is asked for.
 CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpheres found);

@@ -106,17 +106,6 @@ constexpr std::size_t clustered_leaves = 1 << 18;
 // So many leaves are met one by one.
 constexpr std::size_t few_leaves = 2;
 
-// A net whose weights are so small or large that products of two of their size would leave the numbers, in
-// units of its largest: a power of two, so that the surface and its points stay the same bits.
-void bring_near_one(Net& net) {
-  double most = 0.0;
-  for (const dvec4& p : points_of(net)) most = std::max(most, std::fabs(p.w));
-  if (!(most > 0.0 && std::isfinite(most)) || (most > 0x1p-100 && most < 0x1p100)) return;
-  const int exponent = std::ilogb(most);
-  for (dvec4& p : points_of(net))
-    for (int k = 0; k < 4; ++k) p[k] = std::ldexp(p[k], -exponent);
-}
-
 }  // namespace
 
 Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_unique<Implementation>()) {
