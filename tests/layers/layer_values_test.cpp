@@ -190,8 +190,9 @@ TEST_CASE("the study integrator shows a channel by its colours, and a legend", "
   int shown = 0, black = 0;
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 60; ++x) {
-      // -1 is the bright end, white in linear light.
-      shown += film.mean(x, y).color == dvec3(1.0);
+      // -1 is the bright end, white in linear light. The curvature there is rounded in some places, by 4 ulps
+      // at most, and the colour by three times as much.
+      shown += glm::distance(film.mean(x, y).color, dvec3(1.0)) < 3.0 * 4.0 * 0x1p-52;
       black += film.mean(x, y).color == dvec3(0.0);
     }
   }
