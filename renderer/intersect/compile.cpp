@@ -71,7 +71,11 @@ CompiledSurface compile(const TracedSurface& traced, int max_depth, SurfaceSpher
 
 bool can_cluster(const CompiledSurface& compiled) {
   const std::size_t leaves = compiled.set.leaves.size();
-  return !compiled.hierarchy && compiled.spheres.empty() && leaves > 1 && leaves <= LeafCluster::most_leaves;
+  // A cluster's boxes are floats.
+  const double size = largest(compiled.bounds.high - compiled.bounds.low);
+  return !compiled.hierarchy && compiled.spheres.empty() && leaves > 1 &&
+         leaves <= LeafCluster::most_leaves && size > 1e-20 && size < 1e20 &&
+         largest(glm::max(glm::abs(compiled.bounds.low), glm::abs(compiled.bounds.high))) < 1e30;
 }
 
 void make_cluster(CompiledSurface& compiled) {

@@ -46,8 +46,47 @@ Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& 
   return glm::dot(wall.normal, other.normal) > 0.0 ? nested(surfaces, wall, other) : Contact::beside;
 }
 
+namespace {
+
+// Of errors, how much a start at the point adds.
+double doubt_of(const PlacedSurface& surface, const dvec3& point) {
+  const double size = size_of(surface),
+               moved = 0x1p-51 * size + 0x1p-52 * (largest(point) + largest(surface.origin));
+  return 1.0 + 2.0 * moved / (0x1p-51 * size);
+}
+
+// So nearly along the wall that its two crossings may be tied with each other.
+bool grazes(const Query& q, const Hit& hit) {
+  const dvec3& d = q.ray->direction;
+  const double along = glm::dot(hit.normal, d);
+  return along * along < contact_reach * contact_reach * glm::dot(d, d);
+}
+
+}  // namespace
+
+double contact_doubt(const PlacedSurface& surface, const Hit& hit) {
+  return hit.t_error * doubt_of(surface, hit.point);
+}
+
+double most_doubt(std::span<const PlacedSurface> surfaces) {
+  double most = 1.0;
+  for (const PlacedSurface& s : surfaces) {
+    const Box& bounds = s.compiled->bounds;
+    if (!bounds.empty())
+      most = std::max(
+          most, doubt_of(s, glm::abs(s.origin) + glm::max(glm::abs(bounds.low), glm::abs(bounds.high))));
+  }
+  return most;
+}
+
+bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b) {
+  const double first = contact_doubt(surfaces[a.surface], a), second = contact_doubt(surfaces[b.surface], b);
+  return std::fabs(a.t - b.t) <= std::min(first + second, tie_reach * std::min(first, second));
+}
+
 bool comes_first(const Query& q, const Hit& a, const Hit& b) {
-  if (a.surface == b.surface || !are_tied(a, b)) return nearer(a, b);
+  if (a.surface == b.surface || !are_tied(q.surfaces, a, b) || grazes(q, a) || grazes(q, b))
+    return nearer(a, b);
   const auto wall = [](const Hit& hit) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };

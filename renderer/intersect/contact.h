@@ -25,15 +25,18 @@ struct Wall {
 // How the first is to the second, where they are at one point.
 Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other);
 
-// How much further than a hit, in its errors, the traversal goes on: there may be others that are tied with
-// it.
+// How far from a hit, in t, the wall of another surface may be at which a ray that starts at the hit is
+// already or still to be (accept_at_contact), if the two are of a size.
+double contact_doubt(const PlacedSurface& surface, const Hit& hit);
+// The same, at most, in errors of t, of all hits in a scene.
+double most_doubt(std::span<const PlacedSurface> surfaces);
+
+// How much further than the closest hit, in its doubts, the traversal goes on: there may be others that are
+// tied with it.
 inline constexpr double tie_reach = 16.0;
 
 // Whether rounding does not tell which comes first.
-inline bool are_tied(const Hit& a, const Hit& b) {
-  const double less = std::min(a.t_error, b.t_error);
-  return std::fabs(a.t - b.t) <= std::min(a.t_error + b.t_error, tie_reach * less);
-}
+bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b);
 
 // Which of two hits of the query's ray comes first: the nearer one, but where closed surfaces touch the one
 // whose wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer

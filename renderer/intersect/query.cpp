@@ -38,19 +38,16 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
 }
 
 // Whether a hit cannot be the closest any more.
-bool is_beyond(const Query& q, double t) {
-  return q.mode == Mode::closest && q.best && t > q.best.t + tie_reach * q.best.t_error;
-}
+bool is_beyond(const Query& q, double t) { return q.mode == Mode::closest && t > q.tied_until; }
 
 // Where on the ray the search ends.
-double end_of(const Query& q) {
-  return q.best ? std::min(q.ray->t_max, q.best.t + tie_reach * q.best.t_error) : q.ray->t_max;
-}
+double end_of(const Query& q) { return std::min(q.ray->t_max, q.tied_until); }
 
 void take_if_first(Query& q, const Hit& hit, float& far) {
   if (q.best && !comes_first(q, hit, q.best)) return;
   q.best = hit;
-  far = std::min(far, q.entry.round_far(hit.t + tie_reach * hit.t_error));
+  q.tied_until = hit.t + tie_reach * contact_doubt(q.surfaces[hit.surface], hit);
+  far = std::min(far, q.entry.round_far(q.tied_until));
 }
 
 // Takes one crossing into the query; `normal()` is the unit normal there. True when an occlusion query is
@@ -172,8 +169,7 @@ bool visit_lone_sphere(Query& q, unsigned surface, float& far) {
   }
   if (q.mode == Mode::closest) {
     Hit hit;
-    const double farthest = q.best ? q.best.t + tie_reach * q.best.t_error : INFINITY;
-    const RayAnswer answer = closest_on_sphere(target, *q.ray, farthest, hit);
+    const RayAnswer answer = closest_on_sphere(target, *q.ray, q.tied_until, hit);
     if (answer == RayAnswer::hit) take_if_first(q, hit, far);
     if (answer != RayAnswer::unknown) return false;
   }
@@ -202,7 +198,7 @@ bool visit_instance(Query& q, unsigned surface, float& far) noexcept {
   else
     hierarchy.visit_all(q.local, q.entry, &q);
   q.entry = outer;
-  if (q.best) far = std::min(far, outer.round_far(q.best.t + tie_reach * q.best.t_error));
+  if (q.best) far = std::min(far, outer.round_far(q.tied_until));
   return settled;
 }
 

@@ -78,6 +78,7 @@ struct Query {
   bool local_valid = false;
   bool has_normals = false, has_distances = false;
   Hit best{};
+  double tied_until = INFINITY;    // how far hits are that may be tied with that
   SolverCounts* counts = nullptr;  // once a net has been met
   std::vector<Hit>* hits = nullptr;
   std::vector<int>* signs = nullptr;

@@ -219,7 +219,8 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
       std::all_of(self.placed.begin(), self.placed.end(),
                   [](const PlacedSurface& s) { return can_meet_packets(s); }))
     self.packets = PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
-                                leaves_apart * size * self.hierarchy->unit(), count == 1};
+                                leaves_apart * size * self.hierarchy->unit(),
+                                count == 1 ? 0.0 : most_doubt(self.placed)};
 }
 
 Tracer::~Tracer() = default;
@@ -304,7 +305,8 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out_signs.push_back(signs[k]);
   }
   for (std::size_t k = 1; k < out.size(); ++k)
-    for (std::size_t j = k; j > 0 && are_tied(out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]); --j)
+    for (std::size_t j = k;
+         j > 0 && are_tied(q.surfaces, out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]); --j)
       std::swap(out[j], out[j - 1]);
   for (Hit& hit : out) implementation_->finish_hit(hit);
   return out;
@@ -330,6 +332,7 @@ TracerStatistics Tracer::statistics() const {
   }
   std::unordered_set<const SpherePatches*> shared;
   for (const CompiledSurface& compiled : self.distinct) {
+    if (!compiled.cluster.empty()) s.clustered += compiled.set.leaves.size();
     s.bytes += sizeof(CompiledSurface) + compiled.set.leaves.size() * sizeof(Leaf) +
                compiled.set.boxes.size() * sizeof(Box) + compiled.cluster.memory().size() +
                compiled.patches.size() * sizeof(NewtonPatch);

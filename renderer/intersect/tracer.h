@@ -24,7 +24,8 @@ struct TracedSurface {
 
 struct TracerStatistics {
   std::size_t surfaces = 0, patches = 0, leaves = 0;
-  std::size_t bytes = 0;  // nets, leaves and the acceleration structure
+  std::size_t clustered = 0;  // of the leaves, those that are met surface by surface
+  std::size_t bytes = 0;      // nets, leaves and the acceleration structure
 };
 
 // A surface that no solver can meet. The message names its index and the patch.

@@ -108,7 +108,16 @@ std::vector<Touching> touching() {
 TEST_CASE("A wall that surfaces share is passed", "[hits]") {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
-  for (const Touching& scene : touching()) {
+  std::vector<Touching> scenes = touching();
+  // And away from the world's zero, where points are rounded more than surfaces are.
+  for (const double away : {100.0, 1000.0})
+    for (Touching scene : touching()) {
+      const dvec3 frame = away * dvec3(-0.546, -0.839, -0.026);
+      for (TracedSurface& traced : scene.surfaces) traced.surface.origin += frame;
+      scene.at += frame;
+      scenes.push_back(std::move(scene));
+    }
+  for (const Touching& scene : scenes) {
     const Tracer tracer(scene.surfaces);
     const std::size_t most = 2 * scene.surfaces.size();
     long walks = 0, hits = 0, stuck = 0, disordered = 0, shadows = 0;
