@@ -9,30 +9,8 @@
 namespace rondure {
 namespace {
 
-namespace baseline {
-#define FOR_THIS_SET
-#define INLINE_FOR_THIS_SET [[gnu::always_inline]] inline
-#define POINT_IN_ONE_REGISTER 0
-#include "renderer/intersect/leaf_arithmetic-inl.h"
-#undef FOR_THIS_SET
-#undef INLINE_FOR_THIS_SET
-#undef POINT_IN_ONE_REGISTER
-}  // namespace baseline
-
-#ifdef __x86_64__
-#pragma GCC push_options
-#pragma GCC target("avx2")
-namespace avx2 {
-#define POINT_IN_ONE_REGISTER 1
-#define FOR_THIS_SET __attribute__((target("avx2")))
-#define INLINE_FOR_THIS_SET __attribute__((target("avx2"), always_inline)) inline
-#include "renderer/intersect/leaf_arithmetic-inl.h"
-#undef FOR_THIS_SET
-#undef INLINE_FOR_THIS_SET
-#undef POINT_IN_ONE_REGISTER
-}  // namespace avx2
-#pragma GCC pop_options
-#endif
+#define COMPILED_FOR_EACH_SET "renderer/intersect/leaf_arithmetic-inl.h"
+#include "renderer/intersect/each_set-inl.h"
 
 template <class Shape>
 LeafArithmetic<Shape> arithmetic_by(const Shape& shape, [[maybe_unused]] Instructions set) {

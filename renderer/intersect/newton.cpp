@@ -12,30 +12,8 @@ namespace rondure {
 namespace {
 
 constexpr int step_limit = 16;  // of the patch; 2 or 3 are usual
-namespace baseline {
-#define FOR_THIS_SET
-#define INLINE_FOR_THIS_SET [[gnu::always_inline]] inline
-#define POINT_IN_ONE_REGISTER 0
-#include "renderer/intersect/newton_kernel.h"
-#undef FOR_THIS_SET
-#undef INLINE_FOR_THIS_SET
-#undef POINT_IN_ONE_REGISTER
-}  // namespace baseline
-
-#ifdef __x86_64__
-#pragma GCC push_options
-#pragma GCC target("avx2")
-namespace avx2 {
-#define POINT_IN_ONE_REGISTER 1
-#define FOR_THIS_SET __attribute__((target("avx2")))
-#define INLINE_FOR_THIS_SET __attribute__((target("avx2"), always_inline)) inline
-#include "renderer/intersect/newton_kernel.h"
-#undef FOR_THIS_SET
-#undef INLINE_FOR_THIS_SET
-#undef POINT_IN_ONE_REGISTER
-}  // namespace avx2
-#pragma GCC pop_options
-#endif
+#define COMPILED_FOR_EACH_SET "renderer/intersect/newton_kernel.h"
+#include "renderer/intersect/each_set-inl.h"
 
 }  // namespace
 

@@ -13,20 +13,12 @@
 #include "tests/catch.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
+#include "tests/intersect/same_bits.h"
 #include "tests/surfaces/build_family.h"
 
 using namespace rondure;
 
 namespace {
-
-bool same_bits(const Hit& a, const Hit& b) {
-  const auto bits = [](const Hit& h) {
-    return std::array{h.t,       h.t_error, double(h.surface), double(h.patch), h.u,        h.v,
-                      h.point.x, h.point.y, h.point.z,         h.normal.x,      h.normal.y, h.normal.z};
-  };
-  const auto x = bits(a), y = bits(b);
-  return std::memcmp(x.data(), y.data(), sizeof x) == 0;
-}
 
 // From outside, inside and far away, past the sphere, along its rim, of any length; some odd.
 std::vector<Ray> rays_at(double radius, const dvec3& center, std::size_t count, std::mt19937_64& random) {

@@ -14,6 +14,7 @@
 #include "tests/catch.h"
 #include "tests/intersect/mapped.h"
 #include "tests/intersect/random_direction.h"
+#include "tests/intersect/same_bits.h"
 #include "tests/surfaces/build_family.h"
 
 using namespace rondure;
@@ -95,15 +96,6 @@ Crowd crowd(int side, std::mt19937_64& random) {
     out.surfaces.push_back({std::move(surface), Solver::newton});
   }
   return out;
-}
-
-bool same_bits(const Hit& a, const Hit& b) {
-  const auto bits = [](const Hit& h) {
-    return std::array{h.t,       h.t_error, double(h.surface), double(h.patch), h.u,        h.v,
-                      h.point.x, h.point.y, h.point.z,         h.normal.x,      h.normal.y, h.normal.z};
-  };
-  const auto x = bits(a), y = bits(b);
-  return std::memcmp(x.data(), y.data(), sizeof x) == 0;
 }
 
 }  // namespace
