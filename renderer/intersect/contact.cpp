@@ -38,16 +38,6 @@ Contact nested(const PlacedSurface* surfaces, const Wall& wall, const Wall& othe
   return wall.surface > other.surface ? Contact::within : Contact::around;
 }
 
-}  // namespace
-
-Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
-  const dvec3 apart = glm::cross(wall.normal, other.normal);
-  if (!(glm::dot(apart, apart) < contact_angle * contact_angle)) return Contact::none;
-  return glm::dot(wall.normal, other.normal) > 0.0 ? nested(surfaces, wall, other) : Contact::beside;
-}
-
-namespace {
-
 // Of errors, how much a start at the point adds.
 double doubt_of(const PlacedSurface& surface, const dvec3& point) {
   const double size = size_of(surface),
@@ -63,6 +53,12 @@ bool grazes(const Query& q, const Hit& hit) {
 }
 
 }  // namespace
+
+Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
+  const dvec3 apart = glm::cross(wall.normal, other.normal);
+  if (!(glm::dot(apart, apart) < contact_angle * contact_angle)) return Contact::none;
+  return glm::dot(wall.normal, other.normal) > 0.0 ? nested(surfaces, wall, other) : Contact::beside;
+}
 
 double contact_doubt(const PlacedSurface& surface, const Hit& hit) {
   return hit.t_error * doubt_of(surface, hit.point);
