@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/corners.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
@@ -29,13 +30,6 @@ std::optional<DomainFault> fault_at(const dvec4& p, ParameterDomain domain) {
   if (!(p.w > 0.0)) return DomainFault{true, dvec2(0.0)};
   if (inside_by(p, domain) < -slack * p.w) return DomainFault{false, dvec2(p) / p.w};
   return std::nullopt;
-}
-
-std::vector<dvec4> corners_of(const TensorNet& net) {
-  return {net.at(0, 0), net.at(net.m, 0), net.at(0, net.n), net.at(net.m, net.n)};
-}
-std::vector<dvec4> corners_of(const TriangleNet& net) {
-  return {net.at(net.n, 0), net.at(0, net.n), net.at(0, 0)};
 }
 
 std::vector<TensorNet> quarters_of(const TensorNet& net) {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "renderer/bezier/corners.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/leaf_frame.h"
 #include "renderer/intersect/restriction.h"
@@ -154,13 +155,8 @@ void check_corners(const Net& net, int patch) {
   constexpr double least = 1e-16;
   double most = 0.0, lightest = INFINITY;
   for (const dvec4& p : points_of(net)) most = std::fmax(most, std::fabs(p.w));
-  const auto corner = [&](const dvec4& p) { lightest = std::fmin(lightest, p.w); };
-  if (const auto* t = std::get_if<TensorNet>(&net)) {
-    corner(t->at(0, 0)), corner(t->at(0, t->n)), corner(t->at(t->m, 0)), corner(t->at(t->m, t->n));
-  } else {
-    const auto& triangle = std::get<TriangleNet>(net);
-    corner(triangle.at(0, 0)), corner(triangle.at(triangle.n, 0)), corner(triangle.at(0, triangle.n));
-  }
+  const auto corners = std::visit([](const auto& n) { return corners_of(n); }, net);
+  for (const dvec4& p : corners) lightest = std::fmin(lightest, p.w);
   if (lightest > 0.0 && lightest < least * most)
     throw std::runtime_error(
         fmt::format("patch {}: the weight of a corner is {:.3g} of the largest, and less than {:g}, so that "
