@@ -5,37 +5,46 @@
 namespace rondure {
 namespace {
 
-constexpr double alike = 1e-6;  // in curvature: half of what doubles tell
-
-// How the ellipsoid bends at a point of it: with unit tangents a and b, the form a . bend . b.
-dmat3 bend_of(const PlacedSurface& surface, const PatchedSphere& sphere, const dvec3& point) {
-  const dmat3 form = glm::transpose(sphere.ellipsoid.inverse) * sphere.ellipsoid.inverse;
-  return (1.0 / glm::length(form * (point - surface.origin - sphere.center))) * form;
-}
+constexpr double same_bend = 1e-6;  // in curvature: half of what doubles tell
 
 double size_of(const PlacedSurface& s) { return largest(s.compiled->bounds.high - s.compiled->bounds.low); }
 
-// Which of two closed surfaces is within the other where they touch on the same side, `normal` being that of
-// both: the one that bends more. What is not known to be an ellipsoid, or is the other's equal, goes by its
-// size, and else by its place in the scene.
-Contact nested(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
+// How an ellipsoid is above its tangent plane, the wall's normal being up: with unit tangents a and b, the
+// form a . rise . b. The patches' normal, which is the wall's, may point inward.
+dmat3 rise_of(const PlacedSurface& surface, const PatchedSphere& sphere, const Wall& wall) {
+  const dmat3 form = glm::transpose(sphere.ellipsoid.inverse) * sphere.ellipsoid.inverse;
+  const dvec3 outward = form * (wall.point - surface.origin - sphere.center);
+  const double down = glm::dot(outward, wall.normal) > 0.0 ? -1.0 : 1.0;
+  return (down / glm::length(outward)) * form;
+}
+
+// On which side of the other the wall is because both bend as they do; none where they cross. False where
+// that is not known, or does not tell.
+bool side_by_bend(const PlacedSurface* surfaces, const Wall& wall, const Wall& other, Contact& out) {
   const PlacedSurface &mine = surfaces[wall.surface], &others = surfaces[other.surface];
   const PatchedSphere *const sphere = mine.compiled->lone_sphere(), *const second =
                                                                         others.compiled->lone_sphere();
-  if (sphere && second) {
-    const dvec3& normal = wall.normal;
-    const dmat3 bend = bend_of(mine, *sphere, wall.point),
-                more = bend - bend_of(others, *second, other.point);
-    const dvec3 aside = std::fabs(normal.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0),
-                a = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, a);
-    const double aa = glm::dot(a, more * a), ab = glm::dot(a, more * b), bb = glm::dot(b, more * b),
-                 det = aa * bb - ab * ab, least = alike * (glm::dot(a, bend * a) + glm::dot(b, bend * b));
-    if (det > least * least) return aa > 0.0 ? Contact::within : Contact::around;
-    if (det < -least * least) return Contact::none;
-  }
+  if (!sphere || !second) return false;
+  const dvec3& normal = other.normal;
+  const dmat3 first = rise_of(mine, *sphere, wall), under = rise_of(others, *second, other),
+              above = (out.alike ? first : -first) - under;
+  const dvec3 aside = std::fabs(normal.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0),
+              a = glm::normalize(glm::cross(normal, aside)), b = glm::cross(normal, a);
+  const double aa = glm::dot(a, above * a), ab = glm::dot(a, above * b), bb = glm::dot(b, above * b),
+               det = aa * bb - ab * ab,
+               least = same_bend * (std::fabs(glm::dot(a, first * a)) + std::fabs(glm::dot(b, first * b)));
+  if (std::fabs(det) <= least * least) return false;
+  using enum Contact::Side;
+  out.side = det < 0.0 ? none : aa > 0.0 ? outer : inner;
+  return true;
+}
+
+// Which is within the other.
+bool is_within(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
+  const PlacedSurface &mine = surfaces[wall.surface], &others = surfaces[other.surface];
+  if (mine.compiled->closed != others.compiled->closed) return mine.compiled->closed;
   const double size = size_of(mine), most = size_of(others);
-  if (size != most) return size < most ? Contact::within : Contact::around;
-  return wall.surface > other.surface ? Contact::within : Contact::around;
+  return size != most ? size < most : wall.surface > other.surface;
 }
 
 // Of errors, how much a start at the point adds.
@@ -56,8 +65,12 @@ bool grazes(const Query& q, const Hit& hit) {
 
 Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other) {
   const dvec3 apart = glm::cross(wall.normal, other.normal);
-  if (!(glm::dot(apart, apart) < contact_angle * contact_angle)) return Contact::none;
-  return glm::dot(wall.normal, other.normal) > 0.0 ? nested(surfaces, wall, other) : Contact::beside;
+  if (!(glm::dot(apart, apart) < contact_angle * contact_angle)) return {};
+  using enum Contact::Side;
+  Contact out{outer, glm::dot(wall.normal, other.normal) > 0.0};
+  if (!side_by_bend(surfaces, wall, other, out) && out.alike && is_within(surfaces, wall, other))
+    out.side = inner;
+  return out;
 }
 
 double contact_doubt(const PlacedSurface& surface, const Hit& hit) {
@@ -87,21 +100,13 @@ bool comes_first(const Query& q, const Hit& a, const Hit& b) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };
   const Wall mine = wall(a), other = wall(b);
-  const PlacedSurface &first = q.surfaces[mine.surface], &second = q.surfaces[other.surface];
-  if (!first.compiled->closed || !second.compiled->closed) return nearer(a, b);
   // From so far away that t does not tell one side of a surface from the other, points still do.
-  const double apart = contact_reach * std::min(size_of(first), size_of(second));
+  const double apart =
+      contact_reach * std::min(size_of(q.surfaces[mine.surface]), size_of(q.surfaces[other.surface]));
   if (!(largest(a.point - b.point) <= apart)) return nearer(a, b);
-  const bool into = glm::dot(a.normal, q.ray->direction) < 0.0;
-  switch (contact_of(q.surfaces, mine, other)) {
-    case Contact::beside:
-    case Contact::within:
-      return !into;
-    case Contact::around:
-      return into;
-    default:
-      return nearer(a, b);
-  }
+  const Contact how = contact_of(q.surfaces, mine, other);
+  if (how.side == Contact::Side::none) return nearer(a, b);
+  return (how.side == Contact::Side::outer) == (glm::dot(other.normal, q.ray->direction) < 0.0);
 }
 
 }  // namespace rondure

@@ -1,4 +1,4 @@
-// Where one closed surface touches another, which wall comes first is no matter of rounding.
+// Where one surface touches another, which wall comes first is no matter of rounding.
 #pragma once
 
 #include "renderer/intersect/crossing.h"
@@ -6,9 +6,13 @@
 
 namespace rondure {
 
-// How the surface that a crossing is of and the one that the ray starts on may touch: the crossing's is
-// beside, within or around the start's. Or they do not touch, but cross, or that cannot be told.
-enum class Contact { none, beside, within, around };
+// Where the surface that a crossing is of and the one that the ray starts on touch: on which side of the
+// start's wall the crossing's is, that to which the start's normal points or the other. None where they do
+// not touch, but cross, or that cannot be told.
+struct Contact {
+  enum class Side { none, outer, inner } side = Side::none;
+  bool alike = false;  // the two normals point the same way
+};
 
 // Surfaces that touch have the same normal there, or opposite ones, to within the square root of rounding, or
 // what the start's rounding moves it round a surface much smaller: half of the digits of a float.
@@ -16,13 +20,16 @@ inline constexpr double contact_angle = 0x1p-10;
 // No contact is farther from the start than this, in sizes of the crossing's surface.
 inline constexpr double contact_reach = 0x1p-20;
 
-// A closed surface at a point of it.
+// A surface at a point of it, with the normal that hits have there.
 struct Wall {
   unsigned surface;
   dvec3 point, normal;
 };
 
-// How the first is to the second, where they are at one point.
+// On which side of the second the first is, where they are at one point. Closed surfaces whose normals are
+// opposite are side by side. Of those with one normal the one that bends more is inside, the smaller one
+// where that is not known, and the later one of a size. An open surface, which has no inside, is around a
+// closed one, and goes with another open one as if both were closed.
 Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other);
 
 // How far from a hit, in t, the wall of another surface may be at which a ray that starts at the hit is
@@ -38,17 +45,17 @@ inline constexpr double tie_reach = 16.0;
 // Whether rounding does not tell which comes first.
 bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b);
 
-// Which of two hits of the query's ray comes first: the nearer one, but where closed surfaces touch the one
-// whose wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer
-// is entered first and the inner left first.
+// Which of two hits of the query's ray comes first: the nearer one, but where surfaces touch the one whose
+// wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer is
+// entered first and the inner left first.
 bool comes_first(const Query& query, const Hit& a, const Hit& b);
 
-// Whether a ray that starts on one closed surface, of size `start_size`, meets another there, where they
-// touch or all but touch and rounding may have put the other's wall on either side of the start. The wall is
-// ahead where the ray goes on to it through the space between: of surfaces side by side it leaves the one and
-// goes into the other; of nested ones it goes from the outer into the inner, or from the inner out of the
-// outer. The other way about the ray has come through that wall already. `accepted` and `t`: what `accept`
-// says of the crossing, and what this does. `contact()` is asked last.
+// Whether a ray that starts on one surface, of size `start_size`, meets another there, where they touch or
+// all but touch and rounding may have put the other's wall on either side of the start. The wall is ahead
+// where the ray goes on to it through the space between: of surfaces side by side it leaves the one and goes
+// into the other; of nested ones it goes from the outer into the inner, or from the inner out of the outer.
+// The other way about the ray has come through that wall already. `accepted` and `t`: what `accept` says of
+// the crossing, and what this does. `contact()` is asked last.
 template <class Ask>
 bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
                        const Crossing& c, bool accepted, const Ask& contact, double& t) {
@@ -62,15 +69,12 @@ bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame
   const double leaving = glm::dot(ray.start.normal, local.direction);
   const bool outward = leaving > -0x1p-50, inward = leaving < 0x1p-50;
   const Contact how = contact();
-  if (how == Contact::none) return accepted;
-  const bool into = c.likely < 0;
-  const bool ahead = how == Contact::beside   ? into && outward
-                     : how == Contact::within ? into && inward
-                                              : !into && outward;
+  if (how.side == Contact::Side::none) return accepted;
+  // Along the walls, to rounding, the ray crosses both the same way, whichever that is.
+  const bool out_of_both = (c.likely > 0) == how.alike, outer = how.side == Contact::Side::outer;
+  const bool to_outer = outward && out_of_both, to_inner = inward && !out_of_both;
+  const bool ahead = outer ? to_outer : to_inner, passed = outer ? to_inner : to_outer;
   if (ahead && !accepted) t = 0.0;
-  const bool passed = how == Contact::beside   ? !into && inward
-                      : how == Contact::within ? !into && outward
-                                               : into && inward;
   return ahead || (accepted && !passed);
 }
 

@@ -24,10 +24,8 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
   const dvec3& frame = q.surfaces[surface].origin;
   const bool accepted = accept(*q.ray, local, static_cast<int>(surface), frame, c, t);
   const int start = q.ray->start.surface;
-  if (start < 0 || start == static_cast<int>(surface) || !q.surfaces[surface].compiled->closed)
-    return accepted;
+  if (start < 0 || start == static_cast<int>(surface)) return accepted;
   const CompiledSurface& left = *q.surfaces[start].compiled;
-  if (!left.closed) return accepted;
   const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
   const auto contact = [&] {
     const dvec3& o = q.ray->origin;

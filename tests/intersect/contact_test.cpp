@@ -1,4 +1,4 @@
-// Closed surfaces that touch: a ray that has passed from one into the other meets neither wall again.
+// Surfaces that touch: a ray that has passed from one into the other meets neither wall again.
 
 #include <fmt/core.h>
 
@@ -60,10 +60,22 @@ Surface ellipsoid(const dvec3& axes, const dvec3& center) {
 struct Touching {
   const char* name;
   std::vector<TracedSurface> surfaces;
-  dvec3 at, across;  // the middle of the walls that they share, and their normal
-  double wide;       // of these
-  bool nested;       // the second within the first; or else all side by side
+  dvec3 at, across;    // the middle of the walls that they share, and their normal
+  double wide;         // of these
+  bool nested;         // the second within the first; or else all side by side
+  bool floor = false;  // the second, a patch, is outside of the first
 };
+
+// A square patch, its normal up or down.
+Surface square(const dmat3& turn, double side, double up) {
+  Surface out;
+  TensorNet net(1, 1);
+  for (int i = 0; i <= 1; ++i)
+    for (int j = 0; j <= 1; ++j)
+      net.at(i, j) = dvec4(turn * (side * dvec3(j - 0.5, 0.0, up * (i - 0.5))), 1.0);
+  out.patches.push_back(net);
+  return out;
+}
 
 std::vector<Touching> touching() {
   std::vector<Touching> out;
@@ -87,7 +99,21 @@ std::vector<Touching> touching() {
       Touching next{b.name, {}, dvec3(0.0), turn[1], 0.45, b.nested};
       for (const Corners& c : b.boxes) next.surfaces.push_back({box(c.low, c.high, turn), Solver::newton});
       out.push_back(next);
+      next.name = "not said to be closed";
+      for (TracedSurface& traced : next.surfaces) traced.surface.closed = false;
+      out.push_back(next);
     }
+  const dmat3 turn = turn_about(glm::normalize(dvec3(3.0, -1.0, 2.0)), 0.7);
+  for (const double side : {1.0, 10.0})
+    for (const double up : {-1.0, 1.0})
+      out.push_back({"on a floor",
+                     {{box({-1.0, 0.0, -1.0}, dvec3(1.0), turn), Solver::newton},
+                      {square(turn, side, up), Solver::newton}},
+                     dvec3(0.0),
+                     turn[1],
+                     0.45,
+                     false,
+                     true});
   for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere"})"})
     for (const Solver solver : {Solver::newton, Solver::quadric})
       for (const double other : {-0.4, 0.4}) {
@@ -120,7 +146,7 @@ TEST_CASE("A wall that surfaces share is passed", "[hits]") {
   for (const Touching& scene : scenes) {
     const Tracer tracer(scene.surfaces);
     const std::size_t most = 2 * scene.surfaces.size();
-    long walks = 0, hits = 0, stuck = 0, disordered = 0, shadows = 0;
+    long walks = 0, hits = 0, floors = 0, stuck = 0, disordered = 0, shadows = 0;
     std::string first = "none";
     for (int k = 0; k < 2000; ++k) {
       dvec3 aside = scene.wide * part(random) * random_direction(random);
@@ -138,12 +164,17 @@ TEST_CASE("A wall that surfaces share is passed", "[hits]") {
         shadows += tracer.occluded(ray) != static_cast<bool>(hit);
         if (!hit) break;
         const bool out = glm::dot(hit.normal, direction) > 0.0;
+        path += fmt::format(" {}{} at {}", out ? "out of " : "into ", hit.surface, hit.t);
+        ray = Ray{hit.point, direction, 0.0, INFINITY, {hit.surface, hit.normal}};
+        if (scene.floor && hit.surface == 1) {
+          disorder = disorder || in[0] != 0;
+          ++floors;
+          continue;
+        }
         int& inside = in[static_cast<std::size_t>(hit.surface)];
         inside += out ? -1 : 1;
         const auto bodies = std::count(in.begin(), in.end(), 1);
         disorder = disorder || inside < 0 || inside > 1 || (scene.nested ? in[1] > in[0] : bodies > 1);
-        path += fmt::format(" {}{} at {}", out ? "out of " : "into ", hit.surface, hit.t);
-        ray = Ray{hit.point, direction, 0.0, INFINITY, {hit.surface, hit.normal}};
       }
       disorder = disorder || std::count(in.begin(), in.end(), 0) != std::ssize(in);
       ++walks, hits += static_cast<long>(met);
@@ -156,6 +187,7 @@ TEST_CASE("A wall that surfaces share is passed", "[hits]") {
     CHECK(disordered == 0);
     CHECK(shadows == 0);
     CHECK(hits > 2 * walks);
+    CHECK(floors == (scene.floor ? walks : 0));
   }
 }
 
