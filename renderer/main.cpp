@@ -15,6 +15,7 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/commands/command_line.h"
+#include "renderer/film/atomic_file.h"
 #include "renderer/plugin/builtin.h"
 #include "renderer/plugin/loader.h"
 
@@ -43,6 +44,7 @@ int run(int argc, char** argv) {
   hold_standard_descriptors();
   // Who no longer reads is an error like a full disk, and no sudden end; and so is a file that may not grow.
   std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
+  delete_unfinished_on_signals();
   const CommandLine line = read_command_line(argc, argv);
   if (line.action) {
     Registry registry;

@@ -5,7 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -20,6 +24,33 @@ namespace {
   throw std::runtime_error(fmt::format("{}: cannot write: {}", target, reason));
 }
 [[noreturn]] void refuse(const std::string& target, int error) { refuse(target, std::strerror(error)); }
+
+// A signal handler may neither wait nor allocate: the names are kept where they stay.
+struct Unfinished {
+  std::atomic<bool> taken{false}, named{false};
+  std::array<char, PATH_MAX> name{};
+};
+static_assert(std::atomic<bool>::is_always_lock_free);
+std::array<Unfinished, 16> unfinished;
+
+int remember(const std::string& name) {
+  for (std::size_t k = 0; name.size() < PATH_MAX && k < unfinished.size(); ++k) {
+    Unfinished& place = unfinished[k];
+    if (place.taken.exchange(true)) continue;
+    name.copy(place.name.data(), name.size());
+    place.name[name.size()] = '\0';
+    place.named = true;
+    return static_cast<int>(k);
+  }
+  return -1;
+}
+
+void end_by(int signal) {
+  for (const Unfinished& place : unfinished)
+    if (place.named) unlink(place.name.data());
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
 
 // Data that is renamed before it is on the disk may be lost under the new name.
 int synchronise(const std::string& path, int flags) {
@@ -62,6 +93,7 @@ AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
   const int file = mkostemp(buffer.data(), O_CLOEXEC);
   if (file < 0) refuse(target_, errno);
   temporary_.assign(buffer.data());
+  place_ = remember(temporary_);
   // mkstemp makes files for their owner alone; a picture gets what the user's mask allows.
   const mode_t mask = umask(0);
   umask(mask);
@@ -71,12 +103,31 @@ AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
 
 AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) unlink(temporary_.c_str());
+  forget();
+}
+
+void AtomicFile::forget() {
+  if (place_ < 0) return;
+  Unfinished& place = unfinished[static_cast<std::size_t>(place_)];
+  place.named = false, place.taken = false;
+  place_ = -1;
 }
 
 void AtomicFile::commit() {
   if (const int error = synchronise(temporary_, O_RDONLY)) refuse(target_, error);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
   temporary_.clear();
+  forget();
+}
+
+void delete_unfinished_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    // What was ignored stays so: the program may run behind nohup.
+    if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    action.sa_handler = end_by;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 void check_writable(const std::string& target) { AtomicFile{target}; }

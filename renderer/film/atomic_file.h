@@ -20,9 +20,15 @@ class AtomicFile {
   void commit();
 
  private:
+  void forget();
+
   std::string target_;
   std::string temporary_;  // empty once committed
+  int place_ = -1;         // among those that a signal deletes; -1: none was free
 };
+
+// From now on Ctrl-C, a hangup and a request to end delete what is not committed before they end the program.
+void delete_unfinished_on_signals();
 
 // Throws as AtomicFile would, and leaves nothing behind: to learn of a bad name before hours of work.
 void check_writable(const std::string& target);

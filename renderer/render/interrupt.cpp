@@ -6,19 +6,30 @@ namespace rondure {
 namespace {
 
 std::atomic<bool> asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch no other variable");
+std::array<struct sigaction, interrupting.size()> before;
+
+void restore() {
+  for (std::size_t k = 0; k < interrupting.size(); ++k) sigaction(interrupting[k], &before[k], nullptr);
+}
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   asked = false;
-  struct sigaction action {};
-  action.sa_handler = [](int) { asked = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, &before_);
+  for (std::size_t k = 0; k < interrupting.size(); ++k) {
+    sigaction(interrupting[k], nullptr, &before[k]);
+    if (before[k].sa_handler == SIG_IGN) continue;  // as behind nohup
+    struct sigaction action {};
+    action.sa_handler = [](int) {
+      asked = true;
+      restore();
+    };
+    sigaction(interrupting[k], &action, nullptr);
+  }
 }
 
-InterruptGuard::~InterruptGuard() { sigaction(SIGINT, &before_, nullptr); }
+InterruptGuard::~InterruptGuard() { restore(); }
 
 bool interrupted() noexcept { return asked.load(std::memory_order_relaxed); }
 

@@ -1,21 +1,22 @@
-// Ctrl-C as a question that long work may ask.
+// Ctrl-C, and what batch systems say instead, as a question that long work may ask.
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace rondure {
 
-// While it lives, the first Ctrl-C makes `interrupted` true; a second one ends the program as usual. One at a
-// time.
+// Ctrl-C, a request to end, a terminal that closes, and a limit of CPU time that is reached.
+inline constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
+// While it lives, the first of these signals makes `interrupted` true; a second one does what it did before,
+// which is to end the program. Those that were ignored stay ignored. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  struct sigaction before_ {};
 };
 
 bool interrupted() noexcept;

@@ -273,5 +273,28 @@ TEST_CASE("a disk that fills up leaves nothing behind", "[commands][hostile]") {
   }
 }
 
+// A table that is being written while its rays are still to come.
+TEST_CASE("a program that is told to end leaves nothing behind", "[commands][hostile]") {
+  const std::string folder = folder_with("hostile_signal");
+  const std::vector<std::string> before = names_in(folder);
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
+    CAPTURE(signal);
+    // The pipe that is never written to keeps the program waiting; a shell's background would ignore Ctrl-C.
+    const std::string shell =
+        "mkfifo pipe; env --default-signal=INT \"$0\" trace scene.json --rays pipe -o o.csv & exec 3> pipe; "
+        "n=0\n"
+        "until ls | grep -q part || [ $((n += 1)) -gt 600 ]; do sleep 0.1; done\n"
+        "ls > names; kill -$1 $!; wait $!; echo $? >> names; rm pipe";
+    const ProcessResult result =
+        run_process({"/bin/sh", "-c", shell, program_path(), signal}, {folder, {}, ""});
+    CAPTURE(result.err);
+    const std::string names = read_text_file(folder + "/names");
+    CHECK(names.find("o.csv.part-") != std::string::npos);
+    CHECK(names.find("\n1") != std::string::npos);  // 128 and the signal
+    std::filesystem::remove(folder + "/names");
+    CHECK(names_in(folder) == before);
+  }
+}
+
 }  // namespace
 }  // namespace rondure
