@@ -200,9 +200,10 @@ class Search {
     return Outcome::finished;
   }
 
-  // Roots of a pair that lie within the patch count as they are, and with one of them the other, if rounding
-  // may have moved it out; if neither does, the nearer. But never a root beside its mirror image across a
-  // singular corner: that is outside by as much as the root is inside.
+  // Roots of a pair that lie within the patch count as they are, and each that rounding may have moved out:
+  // one that is by far less outside than the other is away, as where the ray runs in the plane of an edge and
+  // meets it twice. If neither does, the nearer. But never a root beside its mirror image across a singular
+  // corner: that is outside by as much as the root is inside.
   void keep_pair(const typename Shape::Cell& cell, const FoldResult& fold) {
     dvec2 at[2];
     double outside[2];
@@ -212,14 +213,15 @@ class Search {
       outside[k] = Shape::outside(at[k]);
       here[k] = Shape::outside(fold.at[k]) <= fold.tolerance;
     }
-    const bool within[2] = {here[0] && outside[0] <= 0.0, here[1] && outside[1] <= 0.0};
-    if (within[0] || within[1]) {
-      constexpr double beside = 1.0 / 16.0;  // of the distance to the other
-      const double apart = glm::length(at[1] - at[0]);
-      for (int k = 0; k < 2; ++k)
-        if (within[k] || (here[k] && outside[k] <= beside * apart)) keep(at[k], fold.narrow);
-      return;
+    constexpr double beside = 1.0 / 16.0;
+    const double apart = glm::length(at[1] - at[0]);
+    bool any = false;
+    for (int k = 0; k < 2; ++k) {
+      if (!here[k] || !(outside[k] <= beside * apart)) continue;
+      keep(at[k], fold.narrow);
+      any = true;
     }
+    if (any) return;
     const int nearer = here[0] && (!here[1] || outside[0] <= outside[1]) ? 0 : 1;
     if (here[nearer]) keep(at[nearer], fold.narrow);
   }

@@ -19,7 +19,7 @@ using namespace rondure;
 namespace {
 
 constexpr auto classes = static_cast<std::size_t>(RayClass::count);
-constexpr long block = 220;     // rays of one seed
+constexpr long block = 240;     // rays of one seed
 constexpr long sample = 16384;  // one ray in so many is judged whatever its parity
 constexpr long rare = 64;       // classes whose rays often want the oracle come in one block in so many
 
@@ -130,7 +130,7 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
 // symmetry, by the oracle when there is no sphere.
 bool quick(const ClosedModel& model, RayClass which) {
   if (which != RayClass::tangential && which != RayClass::from_surface && which != RayClass::axis_aligned &&
-      which != RayClass::extreme_length)
+      which != RayClass::edge_plane && which != RayClass::extreme_length)
     return true;
   return model.sphere && !model.singular && which != RayClass::from_surface;
 }

@@ -39,15 +39,27 @@ class Aim {
     const double u = draw(), v = draw();
     return at(patch, u, v);
   }
+  // A side of a patch, by where along it.
+  struct Side {
+    std::size_t patch;
+    double across, turn;
+  };
+  Side any_side() {
+    const std::size_t patch = below(model_.surface.patches.size());
+    const double across = draw() < 0.5 ? 0.0 : 1.0;
+    return {patch, across, draw()};
+  }
+  SurfacePoint on_side(const Side& side, double along) {
+    const auto [patch, across, turn] = side;
+    const bool triangle = std::holds_alternative<TriangleNet>(model_.surface.patches[patch]);
+    if (triangle && turn < 0.34) return at(patch, along, 1.0 - along);
+    if (triangle) return turn < 0.67 ? at(patch, along, 0.0) : at(patch, 0.0, along);
+    return turn < 0.5 ? at(patch, across, along) : at(patch, along, across);
+  }
   // On the boundary, or at a corner.
   SurfacePoint on_boundary(bool corner) {
-    const std::size_t patch = below(model_.surface.patches.size());
-    const double along = draw(), across = draw() < 0.5 ? 0.0 : 1.0, turn = draw();
-    const double other = corner ? std::floor(2.0 * along) : along;
-    const bool triangle = std::holds_alternative<TriangleNet>(model_.surface.patches[patch]);
-    if (triangle && turn < 0.34) return at(patch, other, 1.0 - other);
-    if (triangle) return turn < 0.67 ? at(patch, other, 0.0) : at(patch, 0.0, other);
-    return turn < 0.5 ? at(patch, across, other) : at(patch, other, across);
+    const double along = draw();
+    return on_side(any_side(), corner ? std::floor(2.0 * along) : along);
   }
 
   dvec3 center() const { return model_.surface.origin; }
@@ -135,6 +147,25 @@ class Aim {
     return out;
   }
 
+  AimedRay edge_plane() {
+    const Side side = any_side();
+    const SurfacePoint p = on_side(side, draw());
+    dvec3 across = glm::cross(on_side(side, 0.5).point - on_side(side, 0.0).point,
+                              on_side(side, 1.0).point - on_side(side, 0.0).point);
+    // A side that is collapsed, or straight, is in many planes.
+    if (!(glm::length(across) > 1e-6 * model_.radius * model_.radius))
+      across = glm::cross(p.normal, direction());
+    const dvec3 along = glm::normalize(glm::cross(across, p.normal)),
+                inward = glm::normalize(glm::cross(across, along)) * (draw() < 0.5 ? -1.0 : 1.0);
+    const double size = std::fabs(glm::dot(p.point - center(), p.normal)), off = decade(-14.0, -0.3),
+                 steep = draw() < 0.3 ? 4.0 * draw() : 0.0;
+    const dvec3 d = glm::normalize(along + steep * inward);
+    AimedRay out;
+    out.ray = {p.point + off * size * inward - model_.radius * (1.5 + 3.0 * draw()) * d, d};
+    out.parity = glm::distance(out.ray.origin, center()) > 1.01 * model_.radius ? 0 : -1;
+    return out;
+  }
+
   AimedRay axis_aligned() {
     AimedRay out;
     const int axis = static_cast<int>(below(3));
@@ -160,9 +191,10 @@ class Aim {
 }  // namespace
 
 const char* name_of(RayClass c) {
-  static constexpr const char* names[] = {
-      "random, outside",  "random, inside", "shared edges", "corners",      "parameter lines", "tangential",
-      "from the surface", "10^8 radii",     "10^-8 radii",  "axis-aligned", "extreme lengths"};
+  static constexpr const char* names[] = {"random, outside",  "random, inside",  "shared edges",
+                                          "corners",          "parameter lines", "tangential",
+                                          "from the surface", "10^8 radii",      "10^-8 radii",
+                                          "axis-aligned",     "planes of edges", "extreme lengths"};
   return names[static_cast<std::size_t>(c)];
 }
 
@@ -175,6 +207,8 @@ AimedRay aim(const ClosedModel& model, RayClass c, std::mt19937_64& random) {
       return a.very_near();
     case RayClass::axis_aligned:
       return a.axis_aligned();
+    case RayClass::edge_plane:
+      return a.edge_plane();
     case RayClass::far_away: {
       AimedRay out;
       const dvec3 target = a.draw() < 0.5 ? a.outside(0.0, 1.1) : a.on_boundary(a.draw() < 0.5).point;

@@ -18,6 +18,7 @@ enum class RayClass {
   far_away,        // from 10^8 radii
   very_near,       // from 10^-8 radii off the surface, or off the middle
   axis_aligned,    // along an axis, half of them through symmetry planes
+  edge_plane,      // in the plane of a patch's boundary curve, along the surface or not
   extreme_length,  // as the first six, with directions of 2^1000 down to denormal numbers
   count
 };
