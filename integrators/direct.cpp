@@ -15,19 +15,21 @@ class Direct : public Integrator {
     dvec3 result(0.0), throughput(1.0);
     Ray ray = camera_ray;
     Hit hit = first;
+    PassedWalls passed;
     std::optional<ScatterSample> scattered;
     for (int depth = 0;; ++depth) {
       result += throughput * found_light(world, ray, hit, scattered ? &*scattered : nullptr);
       const bool done = scattered && !scattered->specular;
       if (!hit || done || depth == max_depth_) return result;
       sampler.start_block(depth + 1);
-      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      const Bounce here = bounce(world, world.material(hit), hit, passed, -ray.direction, sampler);
       result += throughput * here.light;
       scattered = here.scattered;
       if (!scattered) return result;
       throughput *= scattered->weight;
-      ray = spawn(hit, scattered->direction);
+      ray = spawn(hit, scattered->direction, passed);
       hit = world.tracer().closest(ray);
+      passed.arrive(ray, hit);
     }
   }
 

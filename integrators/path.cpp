@@ -24,12 +24,13 @@ class Path : public Integrator {
     double squeeze = 1.0;  // part of the throughput that is refraction's alone
     Ray ray = camera_ray;
     Hit hit = first;
+    PassedWalls passed;
     std::optional<ScatterSample> scattered;
     for (int depth = 0;; ++depth) {
       result += throughput * found_light(world, ray, hit, scattered ? &*scattered : nullptr);
       if (!hit || depth == settings_.max_depth) return result;
       sampler.start_block(depth + 1);
-      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      const Bounce here = bounce(world, world.material(hit), hit, passed, -ray.direction, sampler);
       const double roulette = sampler.next_1d();
       result += throughput * here.light;
       scattered = here.scattered;
@@ -42,8 +43,9 @@ class Path : public Integrator {
         if (roulette >= survival) return result;
         throughput /= survival;
       }
-      ray = spawn(hit, scattered->direction);
+      ray = spawn(hit, scattered->direction, passed);
       hit = world.tracer().closest(ray);
+      passed.arrive(ray, hit);
     }
   }
 

@@ -50,6 +50,18 @@ bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b);
 // entered first and the inner left first.
 bool comes_first(const Query& query, const Hit& a, const Hit& b);
 
+// Whether a crossing is where its ray starts, on a surface of size `start_size`, to rounding.
+inline bool is_at_start(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
+                        const Crossing& c) {
+  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
+  // the extent at least.
+  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
+  const double ahead_by = local.slide + c.s,
+               bound = std::fmin(c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent)),
+                                 contact_reach * c.extent * std::sqrt(local.inverse_length2));
+  return std::fabs(ahead_by) <= bound && !(ray.t_min > 0.0 || ray.t_max < 0.0);
+}
+
 // Whether a ray that starts on one surface, of size `start_size`, meets another there, where they touch or
 // all but touch and rounding may have put the other's wall on either side of the start. The wall is ahead
 // where the ray goes on to it through the space between: of surfaces side by side it leaves the one and goes
@@ -57,15 +69,9 @@ bool comes_first(const Query& query, const Hit& a, const Hit& b);
 // The other way about the ray has come through that wall already. `accepted` and `t`: what `accept` says of
 // the crossing, and what this does. `contact()` is asked last.
 template <class Ask>
-bool accept_at_contact(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
-                       const Crossing& c, bool accepted, const Ask& contact, double& t) {
-  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
-  // the extent at least.
-  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
-  const double ahead_by = local.slide + c.s,
-               bound = std::fmin(c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent)),
-                                 contact_reach * c.extent * std::sqrt(local.inverse_length2));
-  if (!(std::fabs(ahead_by) <= bound) || ray.t_min > 0.0 || ray.t_max < 0.0 || c.likely == 0) return accepted;
+bool accept_at_contact(const Ray& ray, const LocalRay& local, const Crossing& c, bool accepted,
+                       const Ask& contact, double& t) {
+  if (c.likely == 0) return accepted;
   const double leaving = glm::dot(ray.start.normal, local.direction);
   const bool outward = leaving > -0x1p-50, inward = leaving < 0x1p-50;
   const Contact how = contact();

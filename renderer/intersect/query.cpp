@@ -7,6 +7,7 @@
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/contact.h"
+#include "renderer/intersect/passed_walls.h"
 #include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/surface_crossing.h"
@@ -23,16 +24,23 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
             double& t) {
   const dvec3& frame = q.surfaces[surface].origin;
   const bool accepted = accept(*q.ray, local, static_cast<int>(surface), frame, c, t);
-  const int start = q.ray->start.surface;
-  if (start < 0 || start == static_cast<int>(surface)) return accepted;
-  const CompiledSurface& left = *q.surfaces[start].compiled;
-  const double size = std::max(largest(left.bounds.low), largest(left.bounds.high));
+  const RayStart& start = q.ray->start;
+  if (start.surface < 0 || (start.surface == static_cast<int>(surface) && !start.passed)) return accepted;
+  const Box& left = q.surfaces[start.surface].compiled->bounds;
+  if (!is_at_start(*q.ray, local, frame, std::max(largest(left.low), largest(left.high)), c)) return accepted;
+  if (start.passed) {
+    const PassedWalls::Answer answer =
+        start.passed->ask(static_cast<int>(surface), normal(), local.direction);
+    if (answer == PassedWalls::Answer::ahead) t = std::fmax(t, 0.0);
+    if (answer != PassedWalls::Answer::unknown) return answer == PassedWalls::Answer::ahead;
+  }
+  if (start.surface == static_cast<int>(surface)) return accepted;
   const auto contact = [&] {
     const dvec3& o = q.ray->origin;
     return contact_of(q.surfaces, {surface, o, normal()},
-                      {static_cast<unsigned>(start), o, q.ray->start.normal});
+                      {static_cast<unsigned>(start.surface), o, start.normal});
   };
-  return accept_at_contact(*q.ray, local, frame, size, c, accepted, contact, t);
+  return accept_at_contact(*q.ray, local, c, accepted, contact, t);
 }
 
 // Whether a hit cannot be the closest any more.

@@ -7,11 +7,14 @@
 
 namespace rondure {
 
+class PassedWalls;
+
 // Where a secondary ray starts: on `surface`, with the outward normal there. The root at t = 0 is left out by
 // its own error bound and its crossing direction, never by an offset in world units.
 struct RayStart {
   int surface = -1;  // -1: the ray starts in free space
   dvec3 normal{0.0};
+  const PassedWalls* passed = nullptr;  // by the path before, in the same place; outlives the ray
 };
 
 // Points o + t d with t in [t_min, t_max]; the direction is taken as given, of any length.

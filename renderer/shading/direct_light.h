@@ -17,13 +17,13 @@ inline double power_heuristic(double own, double other) {
 }
 
 // Where a path meets a surface of `material`: the light of one light sample that leaves toward `out`, and the
-// way on, if any. Draws two single numbers and two pairs.
+// way on, if any. `passed`: where the path has come along. Draws two single numbers and two pairs.
 struct Bounce {
   dvec3 light{0.0};  // zero on specular materials
   std::optional<ScatterSample> scattered;
 };
-Bounce bounce(const World& world, const Material& material, const Hit& hit, const dvec3& out,
-              Sampler& sampler);
+Bounce bounce(const World& world, const Material& material, const Hit& hit, const PassedWalls& passed,
+              const dvec3& out, Sampler& sampler);
 
 // From emission at `hit`, or from the background on a miss, along `ray`. `scattered` is how the ray came
 // about; null for rays that no light sample competes with, such as a camera's.

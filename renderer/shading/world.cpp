@@ -224,11 +224,11 @@ LightSample World::sample_light(const dvec3& point, double choice, dvec2 uv) con
   return std::isfinite(result.pdf) ? result : LightSample{};
 }
 
-bool World::visible(const Hit& from, const LightSample& sample) const {
+bool World::visible(const Hit& from, const LightSample& sample, const PassedWalls& passed) const {
   // A sampled point lies on its surface to some ulps of its coordinates. 2^-30 of the distance clears those
   // for coordinates up to 10^6 distances, and hides nothing that a picture could show.
   const double reach = sample.surface >= 0 ? sample.distance * (1.0 - 0x1p-30) : sample.distance;
-  return !tracer_->occluded(spawn(from, sample.direction, reach));
+  return !tracer_->occluded(spawn(from, sample.direction, passed, reach));
 }
 
 }  // namespace rondure

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/intersect/passed_walls.h"
 #include "renderer/intersect/tracer.h"
 #include "renderer/normals/normal_field.h"
 #include "renderer/shading/light.h"
@@ -72,7 +73,7 @@ class World {
   double light_pdf(const dvec3& point, const Hit& hit) const;
   double background_pdf(const dvec3& direction) const;
   // Whether nothing stands between a hit and the light of a sample that was drawn for it.
-  bool visible(const Hit& from, const LightSample& sample) const;
+  bool visible(const Hit& from, const LightSample& sample, const PassedWalls& passed = {}) const;
 
  private:
   struct Lights;
@@ -88,10 +89,12 @@ class World {
   std::unique_ptr<Proofs> proofs_;
 };
 
-// The ray that leaves a hit, with its own root at t = 0 left out.
-inline Ray spawn(const Hit& from, const dvec3& direction,
+// The ray that leaves a hit, with its own root at t = 0 left out, and the walls that its path has come
+// through there; these must outlive it.
+inline Ray spawn(const Hit& from, const dvec3& direction, const PassedWalls& passed,
                  double t_max = std::numeric_limits<double>::infinity()) {
-  return Ray{from.point, direction, 0.0, t_max, RayStart{from.surface, from.normal}};
+  return Ray{from.point, direction, 0.0, t_max,
+             RayStart{from.surface, from.normal, passed.empty() ? nullptr : &passed}};
 }
 
 }  // namespace rondure

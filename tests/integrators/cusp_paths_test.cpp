@@ -105,6 +105,7 @@ class Walk {
     Ray ray = camera;
     const Hit seen = scene_.tracer.closest(ray);
     Hit hit = seen;
+    PassedWalls passed;
     double light = 0.0, throughput = 1.0;
     const long wrong_before = tally.wrong();
     ++tally.paths;
@@ -114,14 +115,15 @@ class Walk {
       light += throughput * found_light(world, ray, hit, nullptr).x;
       if (!hit || depth == max_depth) break;
       sampler.start_block(depth + 1);
-      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      const Bounce here = bounce(world, world.material(hit), hit, passed, -ray.direction, sampler);
       // What of the direction lies along the wall stays; and it is a unit.
       const dvec3 d = here.scattered->direction, change = glm::cross(d - ray.direction, hit.normal);
       tally.way.add(std::max(largest(change), std::fabs(glm::length(d) - 1.0)), 16.0 * u,
                     [&] { return text_of(ray); });
       throughput *= here.scattered->weight.x;
-      ray = spawn(hit, d);
+      ray = spawn(hit, d, passed);
       hit = scene_.tracer.closest(ray);
+      passed.arrive(ray, hit);
     }
     tally.bounces += depth, tally.longest = std::max<long>(tally.longest, depth);
     if (tally.wrong() != wrong_before) return;

@@ -83,6 +83,7 @@ class Walk {
     Ray ray = camera;
     const Hit seen = scene_.tracer.closest(ray);
     Hit hit = seen;
+    PassedWalls passed;
     const long wrong_before = tally.wrong();
     ++tally.paths[static_cast<std::size_t>(which)];
     for (int depth = 0;; ++depth) {
@@ -91,7 +92,7 @@ class Walk {
       if (!hit || depth == max_depth) break;
       sampler.start_block(depth + 1);
       Sampler same = sampler;
-      const Bounce here = bounce(world, world.material(hit), hit, -ray.direction, sampler);
+      const Bounce here = bounce(world, world.material(hit), hit, passed, -ray.direction, sampler);
       if (!here.scattered) {
         note(++tally.wrong_choices, "light absorbed", ray, tally);
         return;
@@ -101,8 +102,9 @@ class Walk {
       const bool crossed = check_scattering(ray, hit, s, same.next_1d(), inside, tally);
       if (crossed) inside = !inside, ++refractions;
       throughput *= s.weight.x;
-      ray = spawn(hit, s.direction);
+      ray = spawn(hit, s.direction, passed);
       hit = scene_.tracer.closest(ray);
+      passed.arrive(ray, hit);
     }
     if (tally.wrong() != wrong_before) return;
     // Outside all light is 1; within glass, of index n, the same light has the radiance n^2. A refraction

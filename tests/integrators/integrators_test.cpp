@@ -18,6 +18,7 @@ class BruteForce : public Integrator {
     dvec3 result(0.0), throughput(1.0);
     Ray ray = camera_ray;
     Hit hit = first;
+    PassedWalls passed;
     for (int depth = 0;; ++depth) {
       if (!hit) return result + throughput * world.background(ray.direction);
       result += throughput * world.emitted(hit, -ray.direction);
@@ -28,8 +29,9 @@ class BruteForce : public Integrator {
           sample_scattering(world.material(hit), hit.normal, -ray.direction, lobe, sampler.next_2d());
       if (!s) return result;
       throughput *= s->weight;
-      ray = spawn(hit, s->direction);
+      ray = spawn(hit, s->direction, passed);
       hit = world.tracer().closest(ray);
+      passed.arrive(ray, hit);
     }
   }
 

@@ -1,0 +1,62 @@
+#include "renderer/intersect/passed_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "renderer/intersect/contact.h"
+
+namespace rondure {
+namespace {
+
+// Far more than what rounding puts between two walls in one place. Walls that are that near but apart are as
+// well remembered: what is asked for is within rounding itself.
+bool is_one_place(const Ray& ray, const Hit& hit) {
+  const double length = glm::length(ray.direction);
+  return std::fabs(hit.t) * length <=
+         16.0 * hit.t_error * length + 0x1p-46 * (largest(ray.origin) + largest(hit.point));
+}
+
+bool are_parallel(const dvec3& a, const dvec3& b) {
+  const dvec3 apart = glm::cross(a, b);
+  return glm::dot(apart, apart) < contact_angle * contact_angle;
+}
+
+}  // namespace
+
+void PassedWalls::arrive(const Ray& ray, const Hit& hit) {
+  if (ray.start.surface < 0 || !hit || !is_one_place(ray, hit)) {
+    count_ = 0;
+    return;
+  }
+  forget(ray.start.surface, ray.start.normal);
+  forget(hit.surface, hit.normal);
+  if (count_ == walls_.size()) {
+    std::move(walls_.begin() + 1, walls_.end(), walls_.begin());
+    --count_;
+  }
+  const bool outward = glm::dot(ray.start.normal, ray.direction) > 0.0;
+  walls_[count_++] = {ray.start.surface, outward ? ray.start.normal : -ray.start.normal};
+}
+
+PassedWalls::Answer PassedWalls::ask(int surface, const dvec3& normal, const dvec3& direction) const {
+  for (std::size_t k = count_; k-- > 0;) {
+    const Wall& wall = walls_[k];
+    if (wall.surface != surface || !are_parallel(wall.towards, normal)) continue;
+    // By the normal that is asked about: where the ray grazes, a surface's two walls may both be there, and
+    // the ray goes on to the other.
+    const double way = glm::dot(normal, direction) * glm::dot(normal, wall.towards);
+    return way < 0.0 ? Answer::ahead : Answer::behind;
+  }
+  return Answer::unknown;
+}
+
+void PassedWalls::forget(int surface, const dvec3& normal) {
+  const auto end = walls_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto kept = std::remove_if(walls_.begin(), end, [&](const Wall& wall) {
+    return wall.surface == surface && are_parallel(wall.towards, normal);
+  });
+  count_ = static_cast<std::size_t>(kept - walls_.begin());
+}
+
+}  // namespace rondure

@@ -1,0 +1,99 @@
+// A path that is sent at an edge, within rounding, comes away from it.
+
+#include "renderer/intersect/passed_walls.h"
+
+#include <fmt/core.h>
+
+#include <glm/geometric.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "renderer/intersect/tracer.h"
+#include "tests/catch.h"
+#include "tests/intersect/boxes.h"
+#include "tests/intersect/random_direction.h"
+
+using namespace rondure;
+
+namespace {
+
+struct Corners {
+  dvec3 low, high;
+};
+struct Bricks {
+  const char* name;
+  std::vector<Corners> boxes;
+};
+
+// About an edge through zero along y; the last about a vertex too.
+std::vector<Bricks> bricks() {
+  const Corners left{{-1, -1, -1}, {0, 1, 0}}, right{{0, -1, -1}, {1, 1, 0}},
+      over_left{{-1, -1, 0}, {0, 1, 1}}, over_right{{0, -1, 0}, {1, 1, 1}}, over{{-1, -1, 0}, {1, 1, 1}};
+  std::vector<Bricks> out = {{"one", {left}},
+                             {"two in a row", {left, right}},
+                             {"two at an edge", {left, over_right}},
+                             {"one on two", {left, right, over}},
+                             {"four", {left, right, over_left, over_right}}};
+  Bricks eight{"eight", {}};
+  for (int k = 0; k < 8; ++k) {
+    const dvec3 low(k & 1 ? 0 : -1, k & 2 ? 0 : -1, k & 4 ? 0 : -1);
+    eight.boxes.push_back({low, low + 1.0});
+  }
+  out.push_back(eight);
+  return out;
+}
+
+}  // namespace
+
+// Through a straight path's place lie all the walls of all boxes at most, each met once. One that is thrown
+// back at each second wall, as from glass, comes away too.
+TEST_CASE("A path comes away from an edge", "[hits]") {
+  std::mt19937_64 random(77);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (const double angle : {0.0, 0.7})
+    for (const double away : {0.0, 100.0})
+      for (const Bricks& scene : bricks()) {
+        const dmat3 turn = turn_about(glm::normalize(dvec3(3.0, -1.0, 2.0)), angle);
+        const dvec3 frame = away * dvec3(-0.546, -0.839, -0.026);
+        std::vector<TracedSurface> surfaces;
+        for (const Corners& c : scene.boxes) {
+          surfaces.push_back({box(c.low, c.high, turn), Solver::newton});
+          surfaces.back().surface.origin = frame;
+        }
+        const Tracer tracer(surfaces);
+        const std::size_t walls = 6 * surfaces.size(), thrown = 50;
+        long paths = 0, lost = 0, stuck = 0, stuck_thrown = 0, shadows = 0;
+        std::size_t longest = 0;
+        for (int k = 0; k < 2000; ++k) {
+          const bool straight = k % 2 == 0;
+          const dvec3 aside = std::pow(10.0, -17.0 + 5.0 * part(random)) * random_direction(random);
+          const dvec3 target = turn * (dvec3(0.0, k % 4 < 2 ? 0.0 : part(random), 0.0) + aside);
+          Ray ray{frame + target, random_direction(random)};
+          ray.origin -= 5.0 * ray.direction;
+          PassedWalls passed;
+          std::size_t met = 0;
+          for (; met <= (straight ? walls : 40 * thrown); ++met) {
+            const Hit hit = tracer.closest(ray);
+            shadows += tracer.occluded(ray) != static_cast<bool>(hit);
+            if (!hit) break;
+            passed.arrive(ray, hit);
+            dvec3 direction = ray.direction;
+            if (!straight && met < thrown && part(random) < 0.5)
+              direction -= 2.0 * glm::dot(direction, hit.normal) * hit.normal;
+            ray = Ray{hit.point, direction, 0.0, INFINITY, {hit.surface, hit.normal, &passed}};
+          }
+          ++paths, longest = std::max(longest, met), lost += met == 0;
+          stuck += straight && met > walls, stuck_thrown += !straight && met > 40 * thrown;
+        }
+        INFO(scene.name << ", angle " << angle << ", " << away << " away: of " << paths << " paths " << stuck
+                        << " straight ones and " << stuck_thrown
+                        << " thrown ones do not come away, the longest of " << longest << " walls; " << lost
+                        << " meet none");
+        CHECK(stuck == 0);
+        CHECK(stuck_thrown == 0);
+        CHECK(shadows == 0);
+        CHECK(lost < (scene.boxes.size() < 4 ? 3 * paths / 4 : paths / 100));
+        CHECK(longest > 1);
+      }
+}
