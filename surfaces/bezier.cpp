@@ -1,4 +1,6 @@
 // Raw control nets, tensor-product or triangular, from the scene or from a file of the same form.
+#include <filesystem>
+
 #include "renderer/api/registry.h"
 #include "renderer/bezier/bernstein.h"
 #include "renderer/scene/json_reader.h"
@@ -19,8 +21,13 @@ bool read_patches(Params& params, Surface& surface) {
 
 // A file that cannot be read is a mistake of the scene, where it is named; one in the file is shown there.
 Document read_file(Params& params) {
+  const std::string path = params.path("file");
+  std::error_code ignored;
+  // A pipe that nobody writes to would be waited for without end.
+  if (const auto status = std::filesystem::status(path, ignored); std::filesystem::is_other(status))
+    params.fail("file", "not a regular file: " + path);
   try {
-    return read_json_file(params.path("file"));
+    return read_json_file(path);
   } catch (const SceneError& error) {
     if (error.where().line > 0) throw;
     params.fail("file", error.what());

@@ -143,9 +143,9 @@ void run_render(const Registry& registry, RenderCommand options) {
       throw std::runtime_error("a picture does not go to standard output; name a file, or ./-");
   }
   Scene scene = read(registry, options);
-  std::vector<NamedPath> outputs = {{"the output", options.output}};
-  if (!options.png.empty()) outputs.push_back({"the preview", options.png});
-  if (options.resume) outputs.push_back({"the state to resume from", resume_path(options.output)});
+  std::vector<NamedPath> outputs = {{"the output (-o)", options.output}};
+  if (!options.png.empty()) outputs.push_back({"the preview (--png)", options.png});
+  if (options.resume) outputs.push_back({"the state to resume from (--resume)", resume_path(options.output)});
   refuse_equal_paths(input_paths(scene), outputs);
   refuse_other_format(options.output, ".exr", "-o writes OpenEXR; for a PNG there is --png");
   refuse_other_format(options.png, ".png", "--png writes PNG; for OpenEXR there is -o");

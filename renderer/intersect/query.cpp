@@ -83,7 +83,7 @@ bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, con
                const FirstOrder<dvec4>& s, float& far) {
   const double noise = q.surfaces[surface].compiled->patches[static_cast<std::size_t>(leaf.patch)].noise;
   const SurfaceCrossing at = cross_surface(leaf, net, noise, q.local, root, s);
-  const auto normal = [&] { return at.has_normal ? at.normal : unit_normal(net, root.u, root.v, s); };
+  const auto normal = [&] { return at.normal; };
   return take(q, surface, leaf.patch, {root.u, root.v}, at.point, normal, at.crossing, far);
 }
 

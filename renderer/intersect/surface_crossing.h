@@ -33,8 +33,7 @@ inline double radius_along(const Net& net, const Root& root, const dvec3& direct
 struct SurfaceCrossing {
   Crossing crossing;
   dvec3 point;   // in the surface's frame
-  dvec3 normal;  // what unit_normal says, unless it has to look closer
-  bool has_normal;
+  dvec3 normal;  // what unit_normal says
 };
 
 // `s`: the patch at the root. `noise`: a bound on normal_noise (regular_normal.h) everywhere on the patch,
@@ -47,15 +46,13 @@ inline SurfaceCrossing cross_surface(const Leaf& leaf, const Net& net, double no
   const dvec3 xu = dvec3(s.du) - point * s.du.w, xv = dvec3(s.dv) - point * s.dv.w;
   const double tangents = largest(xu) + largest(xv);
   dvec3 across = glm::cross(xu, xv);
-  // Beside a singular point the cross product is rounding noise; the way the ray crosses is not. (Squares
-  // that leave the range of doubles end here too.)
   double across2 = glm::dot(across, across);
-  if (across2 > 1e-12 * glm::dot(xu, xu) * glm::dot(xv, xv)) {
-    const double length = std::sqrt(across2);
-    out.has_normal = is_regular_normal(noise, tangents, length);
+  const double length = std::sqrt(across2);
+  if (across2 > 1e-12 * glm::dot(xu, xu) * glm::dot(xv, xv) && is_regular_normal(noise, tangents, length)) {
     out.normal = across / length;
   } else {
-    out.has_normal = true;
+    // Beside a singular point the cross product is rounding noise; the way the ray crosses, and how steeply,
+    // is not. (Squares that leave the range of doubles end here too.)
     out.normal = across = unit_normal(net, root.u, root.v, s);
     across2 = glm::dot(across, across);
   }

@@ -229,6 +229,12 @@ TEST_CASE("broken environment images are refused in bounded memory", "[commands]
     scene_with(file);
     check_refused(folder, {"validate", "scene.json"}, std::string("scene.json:1:48: ") + message);
   }
+  for (const char* file : {"pipe.exr", "/dev/zero"}) {
+    write_text_file(folder + "/scene.json",
+                    fmt::format(R"({{ "objects": [ {{ "type": "bezier", "file": "{}" }} ] }})", file));
+    check_refused(folder, {"validate", "scene.json"},
+                  std::string("scene.json:1:44: not a regular file: ") + file);
+  }
 }
 
 TEST_CASE("samples are resumed from regular files alone", "[commands][hostile]") {

@@ -181,13 +181,13 @@ TEST_CASE("render refuses to write over its own files", "[commands]") {
     std::string message;
   };
   const Row table[] = {
-      {{"-o", "ball.json"}, "ball.json: is the scene and the output at once"},
-      {{"-o", "./link.json"}, "./link.json: is the scene and the output at once"},
+      {{"-o", "ball.json"}, "ball.json: is the scene and the output (-o) at once"},
+      {{"-o", "./link.json"}, "./link.json: is the scene and the output (-o) at once"},
       {{"--png", "../render_equal_paths/ball.json"},
-       "../render_equal_paths/ball.json: is the scene and the preview at once"},
-      {{"-o", "a.exr", "--png", "./a.exr"}, "./a.exr: is the output and the preview at once"},
+       "../render_equal_paths/ball.json: is the scene and the preview (--png) at once"},
+      {{"-o", "a.exr", "--png", "./a.exr"}, "./a.exr: is the output (-o) and the preview (--png) at once"},
       {{"-o", "a.exr", "--png", "a.exr.state", "--resume"},
-       "a.exr.state: is the preview and the state to resume from at once"},
+       "a.exr.state: is the preview (--png) and the state to resume from (--resume) at once"},
   };
   for (const Row& row : table) {
     std::vector<std::string> all = {"render", "ball.json"};
@@ -214,7 +214,7 @@ TEST_CASE("render refuses to write over what the scene reads, and to standard ou
     return r.err;
   };
   CHECK(error_of({"-o", "./net.json"}) ==
-        "rondure: error: ./net.json: is a file that the scene reads and the output at once\n");
+        "rondure: error: ./net.json: is a file that the scene reads and the output (-o) at once\n");
   CHECK(error_of({"-o", "-"}) ==
         "rondure: error: a picture does not go to standard output; name a file, or ./-\n");
   CHECK(error_of({"-o", ""}).find("names no file") != std::string::npos);

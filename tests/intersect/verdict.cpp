@@ -93,8 +93,18 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
 bool touches_edge(const Surface& surface, const Ray& ray) {
   constexpr double glancing = 0x1p-8, rounding = 0x1p-44;
   // Where the cosine is the square root of rounding, roots are that far beside the edge too.
-  for (const oracle::Root& root : oracle::meet(surface, ray, 0x1p-46, 0x1p-22).roots)
-    if (root.cosine <= glancing && root.outside > 0.0 && root.outside * root.cosine <= rounding) return true;
+  const std::vector<oracle::Root> roots = oracle::meet(surface, ray, 0x1p-46, 0x1p-22).roots;
+  const auto is_beside = [](const oracle::Root& root) {
+    return root.outside > 0.0 && root.outside * root.cosine <= rounding;
+  };
+  for (const oracle::Root& a : roots) {
+    if (!is_beside(a)) continue;
+    if (a.cosine <= glancing) return true;
+    for (const oracle::Root& b : roots)
+      if (is_beside(b) && a.way * b.way < 0 &&
+          std::fabs(a.t - b.t) * std::fmin(a.cosine, b.cosine) <= rounding * std::fmax(1.0, std::fabs(a.t)))
+        return true;
+  }
   return false;
 }
 

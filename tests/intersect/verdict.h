@@ -24,8 +24,9 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
               double band, double doubt);
 
 // Whether the line glances off a patch's edge by so little that rounding of the nets, which moves a root by
-// its size over the cosine, decides whether that counts: then the parity of the crossings is rounding's
-// choice, although each of them is certain.
+// its size over the cosine, decides whether that counts, or goes by a vertex so near that it enters by one
+// patch and leaves by another in one place: then the parity of the crossings is rounding's choice, although
+// each of them is certain.
 bool touches_edge(const Surface& surface, const Ray& ray);
 
 }  // namespace rondure
