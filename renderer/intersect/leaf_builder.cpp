@@ -92,8 +92,8 @@ class Builder {
     }
     if (depth >= weight_depth || (depth >= depth_ && ++beyond_depth_ > most_beyond_depth))
       throw std::runtime_error(
-          fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), however "
-                      "finely the patch is divided, so that it cannot be bounded",
+          fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), or next to nothing "
+                      "beside the largest, however finely the patch is divided, so that it cannot be bounded",
                       patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
     typename Shape::Cell low, high;
     int edge;
