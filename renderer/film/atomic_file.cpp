@@ -121,7 +121,7 @@ void AtomicFile::commit() {
 }
 
 void delete_unfinished_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction action {};
     // What was ignored stays so: the program may run behind nohup.
     if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;

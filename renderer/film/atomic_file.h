@@ -27,7 +27,8 @@ class AtomicFile {
   int place_ = -1;         // among those that a signal deletes; -1: none was free
 };
 
-// From now on Ctrl-C, a hangup and a request to end delete what is not committed before they end the program.
+// From now on Ctrl-C, a hangup, a request to end and a limit of CPU time delete what is not committed before
+// they end the program.
 void delete_unfinished_on_signals();
 
 // Throws as AtomicFile would, and leaves nothing behind: to learn of a bad name before hours of work.

@@ -47,11 +47,17 @@ bool is_within(const PlacedSurface* surfaces, const Wall& wall, const Wall& othe
   return size != most ? size < most : wall.surface > other.surface;
 }
 
-// Of errors, how much a start at the point adds.
-double doubt_of(const PlacedSurface& surface, const dvec3& point) {
-  const double size = size_of(surface),
-               moved = 0x1p-51 * size + 0x1p-52 * (largest(point) + largest(surface.origin));
-  return 1.0 + 2.0 * moved / (0x1p-51 * size);
+// How far a start on a surface of `start_extent`, in the hit's place, may be from it and know it
+// (is_at_start), in t: that the ray has come from far away counts no more there.
+double known_within(const PlacedSurface& surface, const Hit& hit, double start_extent) {
+  const double error = std::fmax(hit.t_error - 0x1p-52 * std::fabs(hit.t), 0.0);
+  return error * doubt_at(extent_of(surface), start_extent, hit.point, surface.origin);
+}
+
+// How much further a is on the ray by where the two are.
+double apart_by_points(const Query& q, const Hit& a, const Hit& b) {
+  const dvec3& d = q.ray->direction;
+  return glm::dot(a.point - b.point, d) / glm::dot(d, d);
 }
 
 // So nearly along the wall that its two crossings may be tied with each other.
@@ -73,34 +79,38 @@ Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& 
   return out;
 }
 
-double contact_doubt(const PlacedSurface& surface, const Hit& hit) {
-  return hit.t_error * doubt_of(surface, hit.point);
+double tie_reach(const Query& q, const Hit& hit) {
+  const PlacedSurface& surface = q.surfaces[hit.surface];
+  return known_within(surface, hit, std::fmax(q.widest, extent_of(surface))) + 0x1p-49 * std::fabs(hit.t);
 }
 
-double most_doubt(std::span<const PlacedSurface> surfaces) {
+double most_doubt(std::span<const PlacedSurface> surfaces, double widest) {
   double most = 1.0;
-  for (const PlacedSurface& s : surfaces) {
-    const Box& bounds = s.compiled->bounds;
-    if (!bounds.empty())
-      most = std::max(
-          most, doubt_of(s, glm::abs(s.origin) + glm::max(glm::abs(bounds.low), glm::abs(bounds.high))));
-  }
-  return most;
+  for (const PlacedSurface& s : surfaces)
+    if (!s.compiled->bounds.empty())
+      most = std::max(most, doubt_at(extent_of(s), widest, glm::abs(s.origin) + extent_of(s), s.origin));
+  return 8.0 + most;  // errors of t by its own rounding
 }
 
-bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b) {
-  const double first = contact_doubt(surfaces[a.surface], a), second = contact_doubt(surfaces[b.surface], b);
-  return std::fabs(a.t - b.t) <= std::min(first + second, tie_reach * std::min(first, second));
+bool are_tied(const Query& q, const Hit& a, const Hit& b) {
+  const PlacedSurface &first = q.surfaces[a.surface], &second = q.surfaces[b.surface];
+  const double reach =
+      std::fmin(known_within(first, a, extent_of(second)), known_within(second, b, extent_of(first)));
+  return std::fmin(std::fabs(a.t - b.t), std::fabs(apart_by_points(q, a, b))) <= reach;
 }
 
 bool comes_first(const Query& q, const Hit& a, const Hit& b) {
-  if (a.surface == b.surface || !are_tied(q.surfaces, a, b) || grazes(q, a) || grazes(q, b))
-    return nearer(a, b);
+  if (a.surface == b.surface || grazes(q, a) || grazes(q, b)) return nearer(a, b);
+  if (!are_tied(q, a, b)) {
+    // From far away t may not tell which is nearer; points do.
+    if (std::fabs(a.t - b.t) > 0x1p-51 * (std::fabs(a.t) + std::fabs(b.t))) return nearer(a, b);
+    return apart_by_points(q, a, b) < 0.0;
+  }
   const auto wall = [](const Hit& hit) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };
   const Wall mine = wall(a), other = wall(b);
-  // From so far away that t does not tell one side of a surface from the other, points still do.
+  // From so far away that t does not tell even one side of a surface from the other.
   const double apart =
       contact_reach * std::min(size_of(q.surfaces[mine.surface]), size_of(q.surfaces[other.surface]));
   if (!(largest(a.point - b.point) <= apart)) return nearer(a, b);

@@ -32,38 +32,46 @@ struct Wall {
 // closed one, and goes with another open one as if both were closed.
 Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& other);
 
-// How far from a hit, in t, the wall of another surface may be at which a ray that starts at the hit is
-// already or still to be (accept_at_contact), if the two are of a size.
-double contact_doubt(const PlacedSurface& surface, const Hit& hit);
+// How large a surface's coordinates are in its frame: what errors are relative to.
+inline double extent_of(const PlacedSurface& surface) {
+  const Box& bounds = surface.compiled->bounds;
+  return std::max(largest(bounds.low), largest(bounds.high));
+}
+
+// Of errors of a crossing of a surface of `extent`, at a ray's start or hit in `point`: how many the start
+// adds where it is rounded, on a surface of `start_extent`. It moves the crossing along the ray as the
+// crossing's own error does, which was 2^-50 of the extent at least.
+inline double doubt_at(double extent, double start_extent, const dvec3& point, const dvec3& frame) {
+  const double moved = 0x1p-51 * start_extent + 0x1p-52 * (largest(point) + largest(frame));
+  return 1.0 + 2.0 * moved / (0x1p-50 * extent);
+}
+
+// How far from a hit, in t, others may be that are tied with it, if `widest` is the extent of the largest
+// surface.
+double tie_reach(const Query& query, const Hit& hit);
 // The same, at most, in errors of t, of all hits in a scene.
-double most_doubt(std::span<const PlacedSurface> surfaces);
+double most_doubt(std::span<const PlacedSurface> surfaces, double widest);
 
-// How much further than the closest hit, in its doubts, the traversal goes on: there may be others that are
-// tied with it.
-inline constexpr double tie_reach = 16.0;
-
-// Whether rounding does not tell which comes first.
-bool are_tied(const PlacedSurface* surfaces, const Hit& a, const Hit& b);
+// Whether rounding does not tell which comes first: a path that has gone on from either of them would know
+// the other as one at its start (is_at_start).
+bool are_tied(const Query& query, const Hit& a, const Hit& b);
 
 // Which of two hits of the query's ray comes first: the nearer one, but where surfaces touch the one whose
 // wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer is
 // entered first and the inner left first.
 bool comes_first(const Query& query, const Hit& a, const Hit& b);
 
-// Whether a crossing is where its ray starts, on a surface of size `start_size`, to rounding.
-inline bool is_at_start(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_size,
+// Whether a crossing is where its ray starts, on a surface of `start_extent`, to rounding.
+inline bool is_at_start(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_extent,
                         const Crossing& c) {
-  // The start's own error moves the crossing along the ray as the crossing's error does, which was 2^-50 of
-  // the extent at least.
-  const double moved = 0x1p-51 * start_size + 0x1p-52 * (largest(ray.origin) + largest(frame));
   const double ahead_by = local.slide + c.s,
-               bound = std::fmin(c.s_error * (1.0 + 2.0 * moved / (0x1p-50 * c.extent)),
+               bound = std::fmin(c.s_error * doubt_at(c.extent, start_extent, ray.origin, frame),
                                  contact_reach * c.extent * std::sqrt(local.inverse_length2));
   return std::fabs(ahead_by) <= bound && !(ray.t_min > 0.0 || ray.t_max < 0.0);
 }
 
-// Whether a ray that starts on one surface, of size `start_size`, meets another there, where they touch or
-// all but touch and rounding may have put the other's wall on either side of the start. The wall is ahead
+// Whether a ray that starts on one surface meets another there (is_at_start), where they touch or all but
+// touch and rounding may have put the other's wall on either side of the start. The wall is ahead
 // where the ray goes on to it through the space between: of surfaces side by side it leaves the one and goes
 // into the other; of nested ones it goes from the outer into the inner, or from the inner out of the outer.
 // The other way about the ray has come through that wall already. `accepted` and `t`: what `accept` says of

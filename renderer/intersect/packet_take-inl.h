@@ -41,15 +41,12 @@ HWY_INLINE void take(Packet& q, unsigned surface, const Leaf& leaf, const Newton
   // Which of two at the same t comes first is not for this to say, nor of two surfaces' that are tied.
   const hn::RebindToSigned<D> di;
   M unclear = hn::Eq(t, best);
-  if (q.target.doubt > 0.0) {  // as are_tied
+  if (q.target.doubt > 0.0) {  // more than are_tied
     const V best_error = part(q.t_error, at), less = hn::Min(t_error, best_error);
     const auto named = hn::And(hn::BitCast(di, part(q.name, at)), hn::Set(di, std::int64_t{0xffffffff}));
     const M others = hn::RebindMask(d, hn::Ne(named, hn::Set(di, static_cast<std::int64_t>(surface))));
     const M met = hn::And(others, hn::Lt(best, hn::Set(d, INFINITY)));
-    unclear = hn::Or(unclear,
-                     hn::And(met, hn::Le(hn::Abs(t - best),
-                                         hn::Set(d, q.target.doubt) *
-                                             hn::Min(t_error + best_error, hn::Set(d, tie_reach) * less))));
+    unclear = hn::Or(unclear, hn::And(met, hn::Le(hn::Abs(t - best), hn::Set(d, q.target.doubt) * less)));
   }
   hand_back(q, hn::Or(hn::AndNot(ordinary, roots), hn::And(counts, unclear)), far, at);
   if (hn::AllFalse(d, nearest)) return;
@@ -65,11 +62,10 @@ HWY_INLINE void take(Packet& q, unsigned surface, const Leaf& leaf, const Newton
       set_part(q.normal[1], at, nearest, across.y / length);
   set_part(q.normal[2], at, nearest, across.z / length);
   // As Entry::round_far.
-  const V ahead =
-      hn::Max(((t + hn::Set(d, q.target.doubt > 0.0 ? tie_reach * q.target.doubt : 1.0) * t_error) -
-               part(q.far_origin, at)) *
-                  part(q.far_rate, at),
-              zero);
+  const V ahead = hn::Max(
+      ((t + hn::Set(d, q.target.doubt > 0.0 ? q.target.doubt : 1.0) * t_error) - part(q.far_origin, at)) *
+          part(q.far_rate, at),
+      zero);
   const auto lower = [&](std::size_t g, M lanes) HWY_ATTR {
     const hn::Rebind<float, D> df;
     const auto old = hn::LoadU(df, far.at(g)),

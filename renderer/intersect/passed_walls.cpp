@@ -18,12 +18,13 @@ bool is_one_place(const Ray& ray, const Hit& hit) {
          std::fmin(along, 0x1p20 * across) + 0x1p-46 * (largest(ray.origin) + largest(hit.point));
 }
 
-bool are_parallel(const dvec3& a, const dvec3& b) {
-  const dvec3 apart = glm::cross(a, b);
+}  // namespace
+
+bool PassedWalls::Wall::is(int other_surface, const dvec3& other_normal) const {
+  if (surface != other_surface || !(glm::dot(normal, other_normal) > 0.0)) return false;
+  const dvec3 apart = glm::cross(normal, other_normal);
   return glm::dot(apart, apart) < contact_angle * contact_angle;
 }
-
-}  // namespace
 
 void PassedWalls::arrive(const Ray& ray, const Hit& hit) {
   if (ray.start.surface < 0 || !hit || !is_one_place(ray, hit)) {
@@ -36,27 +37,24 @@ void PassedWalls::arrive(const Ray& ray, const Hit& hit) {
     std::move(walls_.begin() + 1, walls_.end(), walls_.begin());
     --count_;
   }
-  const bool outward = glm::dot(ray.start.normal, ray.direction) > 0.0;
-  walls_[count_++] = {ray.start.surface, outward ? ray.start.normal : -ray.start.normal};
+  walls_[count_++] = {ray.start.surface, glm::dot(ray.start.normal, ray.direction) > 0.0, ray.start.normal};
 }
 
 PassedWalls::Answer PassedWalls::ask(int surface, const dvec3& normal, const dvec3& direction) const {
-  for (std::size_t k = count_; k-- > 0;) {
-    const Wall& wall = walls_[k];
-    if (wall.surface != surface || !are_parallel(wall.towards, normal)) continue;
+  for (std::size_t k = count_; k-- > 0;)
     // By the normal that is asked about: where the ray grazes, a surface's two walls may both be there, and
     // the ray goes on to the other.
-    const double way = glm::dot(normal, direction) * glm::dot(normal, wall.towards);
-    return way < 0.0 ? Answer::ahead : Answer::behind;
-  }
+    if (walls_[k].is(surface, normal)) {
+      const double way = glm::dot(normal, direction);
+      return (walls_[k].outside ? way < 0.0 : way > 0.0) ? Answer::ahead : Answer::behind;
+    }
   return Answer::unknown;
 }
 
 void PassedWalls::forget(int surface, const dvec3& normal) {
   const auto end = walls_.begin() + static_cast<std::ptrdiff_t>(count_);
-  const auto kept = std::remove_if(walls_.begin(), end, [&](const Wall& wall) {
-    return wall.surface == surface && are_parallel(wall.towards, normal);
-  });
+  const auto kept =
+      std::remove_if(walls_.begin(), end, [&](const Wall& wall) { return wall.is(surface, normal); });
   count_ = static_cast<std::size_t>(kept - walls_.begin());
 }
 

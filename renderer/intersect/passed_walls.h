@@ -8,9 +8,9 @@
 
 namespace rondure {
 
-// On an edge, and where solids share one, which of the walls comes first is no matter of rounding either:
-// each ray that starts there finds walls at t = 0 again that the path has come through, some of them ahead,
-// and a path might go round in them for ever. So it remembers on which side of each it is.
+// Where walls cross, on an edge or where solids share one, rounding alone says which of them a ray meets
+// next, and from each it may say that another is still to come: a path would go round in them for ever. So it
+// remembers on which side of each it is.
 class PassedWalls {
  public:
   // That the path has come along `ray` to `hit`, from which it will go on. Where that is the place where it
@@ -27,13 +27,17 @@ class PassedWalls {
  private:
   struct Wall {
     int surface;
-    dvec3 towards;  // the normal, on the side of it where the path is
+    bool outside;  // the path is on the side to which the normal points
+    dvec3 normal;
+
+    // The two sides of a thin body are two walls.
+    bool is(int other_surface, const dvec3& other_normal) const;
   };
 
   void forget(int surface, const dvec3& normal);
 
-  // All that eight boxes have at a vertex which they share; were there more, the oldest would give way.
-  std::array<Wall, 24> walls_;
+  // More than twice as many as eight boxes have at a vertex which they share; the oldest give way.
+  std::array<Wall, 64> walls_;
   std::size_t count_ = 0;
 };
 

@@ -26,8 +26,7 @@ bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Cross
   const bool accepted = accept(*q.ray, local, static_cast<int>(surface), frame, c, t);
   const RayStart& start = q.ray->start;
   if (start.surface < 0 || (start.surface == static_cast<int>(surface) && !start.passed)) return accepted;
-  const Box& left = q.surfaces[start.surface].compiled->bounds;
-  if (!is_at_start(*q.ray, local, frame, std::max(largest(left.low), largest(left.high)), c)) return accepted;
+  if (!is_at_start(*q.ray, local, frame, extent_of(q.surfaces[start.surface]), c)) return accepted;
   if (start.passed) {
     const PassedWalls::Answer answer =
         start.passed->ask(static_cast<int>(surface), normal(), local.direction);
@@ -52,7 +51,7 @@ double end_of(const Query& q) { return std::min(q.ray->t_max, q.tied_until); }
 void take_if_first(Query& q, const Hit& hit, float& far) {
   if (q.best && !comes_first(q, hit, q.best)) return;
   q.best = hit;
-  q.tied_until = hit.t + tie_reach * contact_doubt(q.surfaces[hit.surface], hit);
+  q.tied_until = hit.t + tie_reach(q, hit);
   far = std::min(far, q.entry.round_far(q.tied_until));
 }
 

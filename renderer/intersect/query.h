@@ -69,6 +69,7 @@ struct Query {
   const PlacedSurface* surfaces;
   const Ray* ray;
   Mode mode;
+  double widest;          // the extent of the scene's largest surface
   Entry entry{};          // into the hierarchy that is being traversed
   unsigned instance = 0;  // whose hierarchy that is, if it is not the scene's
   // The ray's local forms: the direction is the same in all, the base changes with the surface.

@@ -26,6 +26,7 @@ struct Tracer::Implementation {
   std::vector<PlacedSurface> placed;      // all, in order
   std::size_t leaf_count = 0;
   std::unique_ptr<Hierarchy> hierarchy;
+  double widest = 0.0;     // the extent of the largest surface
   bool one_frame = false;  // the surfaces' origins are all at the hierarchy's centre
 
   std::vector<LeafName> few;          // of so few leaves that no hierarchy pays
@@ -90,7 +91,7 @@ struct Tracer::Implementation {
 
   void finish_hit(Hit& hit) const { finish(placed[static_cast<std::size_t>(hit.surface)], hit); }
 
-  Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode}; }
+  Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode, widest}; }
 };
 
 namespace {
@@ -169,8 +170,10 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     const CompiledSurface& compiled = *placed.compiled;
     if (const PatchedSphere* sphere = compiled.lone_sphere(); sphere && sphere->radius > 0.0)
       placed.sphere = sphere;
-    if (const Box& bounds = compiled.bounds; !bounds.empty())
+    if (const Box& bounds = compiled.bounds; !bounds.empty()) {
       world.add(Box{bounds.low + placed.origin, bounds.high + placed.origin});
+      self.widest = std::max(self.widest, extent_of(placed));
+    }
   }
   if (world.empty()) return;
   // A common origin that is in the middle, or nearly, spares each ray a second local form.
@@ -220,7 +223,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
                   [](const PlacedSurface& s) { return can_meet_packets(s); }))
     self.packets = PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
                                 leaves_apart * size * self.hierarchy->unit(),
-                                count == 1 ? 0.0 : most_doubt(self.placed)};
+                                count == 1 ? 0.0 : most_doubt(self.placed, self.widest)};
 }
 
 Tracer::~Tracer() = default;
@@ -305,8 +308,8 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out_signs.push_back(signs[k]);
   }
   for (std::size_t k = 1; k < out.size(); ++k)
-    for (std::size_t j = k;
-         j > 0 && are_tied(q.surfaces, out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]); --j)
+    for (std::size_t j = k; j > 0 && are_tied(q, out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]);
+         --j)
       std::swap(out[j], out[j - 1]);
   for (Hit& hit : out) implementation_->finish_hit(hit);
   return out;

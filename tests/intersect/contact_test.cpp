@@ -85,7 +85,7 @@ std::vector<Touching> touching() {
                      true});
   for (const char* family : {R"({"type": "sphere_tiling", "topology": "cube"})", R"({"type": "sphere"})"})
     for (const Solver solver : {Solver::newton, Solver::quadric})
-      for (const double other : {-0.4, 0.4}) {
+      for (const double other : {-0.4, 0.4, -1e-4, 1e-4}) {
         const Surface ball = build_family(family);
         const auto tangent = [&](double radius) {
           return TracedSurface{placed(ball, std::fabs(radius), radius * dvec3(2, 3, 6) / 7.0), solver};

@@ -97,3 +97,41 @@ TEST_CASE("A path comes away from an edge", "[hits]") {
         CHECK(longest > 1);
       }
 }
+
+// Thinner than some roundings of the place, but not than one: what is thrown back within it meets the other
+// side.
+TEST_CASE("The two sides of a thin body are two walls", "[hits]") {
+  std::mt19937_64 random(78);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  for (const auto& [away, thick] : {std::pair(0.0, 1e-14), std::pair(1000.0, 1e-12)}) {
+    Surface slab = box({-1.0, -1.0, 0.0}, {1.0, 1.0, thick}, dmat3(1.0));
+    slab.origin = away * dvec3(1.0, -0.7, 0.3);
+    const Tracer tracer({{slab, Solver::newton}});
+    long paths = 0, hits = 0, wrong = 0;
+    for (int k = 0; k < 2000; ++k) {
+      Ray ray{slab.origin + dvec3(part(random) - 0.5, part(random) - 0.5, 0.0), random_direction(random)};
+      if (std::fabs(ray.direction.z) < 0.3) continue;
+      ray.origin -= 5.0 * ray.direction;
+      PassedWalls passed;
+      bool inside = false, right = true;
+      for (int met = 0; met < 40; ++met) {
+        const Hit hit = tracer.closest(ray);
+        if (!hit) break;
+        ++hits;
+        right = right && (glm::dot(hit.normal, ray.direction) > 0.0) == inside;
+        passed.arrive(ray, hit);
+        dvec3 direction = ray.direction;
+        if (part(random) < 0.5)
+          direction -= 2.0 * glm::dot(direction, hit.normal) * hit.normal;
+        else
+          inside = !inside;
+        ray = Ray{hit.point, direction, 0.0, INFINITY, {hit.surface, hit.normal, &passed}};
+      }
+      ++paths, wrong += !right || inside;
+    }
+    INFO(away << " away: of " << paths << " paths, of " << hits << " hits, " << wrong
+              << " are in the wrong medium");
+    CHECK(wrong == 0);
+    CHECK(hits > paths);
+  }
+}
