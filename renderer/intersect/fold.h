@@ -25,6 +25,7 @@ struct FoldResult {
 template <class Shape>
 FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval curvature, double error) {
   constexpr double reach = 1.5;  // how far outside the cell the extremum may lie for the model to be trusted
+  constexpr double outskirts = 0.25;
   const Axes axes{swapped};
   const auto beyond = [](double x) { return std::fabs(x - 0.5); };
   const double sign = curvature.low > 0.0 ? 1.0 : -1.0;
@@ -62,8 +63,10 @@ FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval
   result.tolerance = std::min(result.tolerance, 2.0 * error / (bend * spread));
   for (int side = 0; side < 2; ++side) {
     const double turn = side == 0 ? -1.0 : 1.0;
-    // From beyond the root, Newton's method on a convex function closes in without crossing it.
-    double rx = x + turn * std::min(spread, 2.0), ry = y + at.dy * (rx - x);
+    // From beyond the root, Newton's method on a convex function closes in without crossing it. But not from
+    // far beyond the cell, where the function need not be convex: what root is out there is no matter here.
+    const double limit = side == 0 ? std::min(x, -outskirts) : std::max(x, 1.0 + outskirts);
+    double rx = turn * std::min(turn * (x + turn * spread), turn * limit), ry = y + at.dy * (rx - x);
     for (int k = 0; k < 40; ++k) {
       const Along r = along_graph(shape, f, axes, rx, ry);
       if (!(std::fabs(r.dh) > 0.0)) break;
@@ -72,6 +75,8 @@ FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval
       ry += r.dy * step;
       if (std::fabs(step) < 1e-15 || !std::isfinite(step)) break;
     }
+    // The other's root, or none.
+    if (!result.narrow && !(turn * (rx - x) >= 0.0)) return {};
     result.at[side] = axes.to_cell(rx, ry);
   }
   return result;

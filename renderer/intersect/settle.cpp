@@ -6,6 +6,7 @@
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/cell.h"
+#include "renderer/intersect/newton_step.h"
 #include "renderer/intersect/projected_net.h"
 #include "renderer/intersect/strong_direction.h"
 
@@ -13,6 +14,7 @@ namespace rondure {
 namespace {
 
 constexpr double reach = 0.25;  // further outside than this, rounding is not the reason
+constexpr double longest_sharpening = 0x1p-26;
 
 using Extended = long double;
 
@@ -109,10 +111,25 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
   return p;
 }
 
+// A step of Newton's method by what the residual really is: that of doubles leaves a root off by its rounding
+// over the cosine, and so perhaps outside where it is inside. Where rounding is not the reason, the place
+// stays.
+dvec2 sharpened(const Net& net, const LocalRay& ray, dvec2 p) {
+  const FirstOrder<dvec2> s = projected(net, ray, p);
+  const dvec2 step = newton_step(extended_residual(net, ray, p), s.du, s.dv);
+  const bool is_short = std::fabs(step.x) < longest_sharpening && std::fabs(step.y) < longest_sharpening;
+  return is_short ? p - step : p;
+}
+
 template <class Shape>
 bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
   dvec2 p(root.u, root.v);
-  if (root.tangent) p = improve<Shape>(net, 0.25 * bound, ray, p);
+  if (root.tangent)
+    p = improve<Shape>(net, 0.25 * bound, ray, p);
+  else if (Shape::outside(p) > 0.0)
+    p = sharpened(net, ray, p);
+  else
+    return true;
   if (const double beyond = Shape::outside(p); beyond > 0.0) {
     if (!(beyond < reach)) return false;
     const dvec2 along = Shape::boundary_direction(p);
@@ -128,8 +145,6 @@ bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
       p = next;
       if (std::fabs(step) < 1e-15) break;
     }
-  } else if (!root.tangent) {
-    return true;
   }
   root.u = p.x, root.v = p.y;
   // And the parameters are doubles: half an ulp of each moves the point by this much.

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 #include "renderer/intersect/local_ray.h"
@@ -202,4 +203,37 @@ TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
     tally.merge(check_model(placed(model, 1.0, center), share.solver, rays(0.1), seed++));
   }
   require_clean(tally, share.name);
+}
+
+// One in 10^7 and rarer: in the plane of an edge, both roots rounded out of it; inside a corner, where
+// grazing moves a root by more than it is inside; from where Newton's method along a fold began too far
+// outside.
+TEST_CASE("Rays that long runs found lost are met", "[once]") {
+  struct Lost {
+    const char* model;
+    dvec3 center, origin, direction;
+  };
+  const char* const kites = "\"topology\": \"icosahedron_pairs\", \"corner_weights\": \"unit\"";
+  for (const Lost& lost :
+       {Lost{kites, {48.0, -60.0, 64.0}, {48.0, -55.9814058849215, 64.999827114497521}, {0.0, -1.0, 0.0}},
+        {kites,
+         dvec3(0.0),
+         {2.4255464922873751, -0.7660254682481451, 0.3506851026923834},
+         {-1.3475034686713616, 1.1466782052498867, -0.24873437557259412}},
+        {"vidunas/figure_4: tetrahedron",
+         dvec3(0.0),
+         {2.0761739326667832, 0.11375230737981638, -0.61267035818879589},
+         {-1.2064958408327975, -0.10754152096402124, 0.011978566605392298}}}) {
+    const auto& models = closed_models();
+    const auto model = std::find_if(models.begin(), models.end(), [&](const ClosedModel& m) {
+      return m.name.find(lost.model) != m.name.npos;
+    });
+    REQUIRE(model != models.end());
+    for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
+      CAPTURE(model->name, static_cast<int>(solver));
+      const bool moved = lost.center != dvec3(0.0);
+      const Tracer tracer({{moved ? placed(*model, 1.0, lost.center).surface : model->surface, solver}});
+      CHECK(tracer.all({lost.origin, lost.direction}).size() == 2);
+    }
+  }
 }
