@@ -56,8 +56,10 @@ double known_within(const PlacedSurface& surface, const Hit& hit, double start_e
 
 // How much further a is on the ray by where the two are.
 double apart_by_points(const Query& q, const Hit& a, const Hit& b) {
-  const dvec3& d = q.ray->direction;
-  return glm::dot(a.point - b.point, d) / glm::dot(d, d);
+  // The squares of a very short direction are zero.
+  const double length = largest(q.ray->direction);
+  const dvec3 d = q.ray->direction / length;
+  return glm::dot(a.point - b.point, d) / (glm::dot(d, d) * length);
 }
 
 // So nearly along the wall that its two crossings may be tied with each other.

@@ -12,7 +12,7 @@ namespace {
 // Far more than what rounding puts between two walls in one place, but less than what turns their normals.
 // Walls that are that near but apart are as well remembered: what is asked for is within rounding itself.
 bool is_one_place(const Ray& ray, const Hit& hit) {
-  const double length = glm::length(ray.direction), along = 16.0 * hit.t_error * length,
+  const double length = largest(ray.direction), along = 16.0 * hit.t_error * length,
                across = hit.t_error * std::fabs(glm::dot(hit.normal, ray.direction));
   return std::fabs(hit.t) * length <=
          std::fmin(along, 0x1p20 * across) + 0x1p-46 * (largest(ray.origin) + largest(hit.point));
