@@ -1,6 +1,7 @@
 #include "renderer/intersect/contact.h"
 
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace rondure {
 namespace {
@@ -119,6 +120,14 @@ bool comes_first(const Query& q, const Hit& a, const Hit& b) {
   const Contact how = contact_of(q.surfaces, mine, other);
   if (how.side == Contact::Side::none) return nearer(a, b);
   return (how.side == Contact::Side::outer) == (glm::dot(other.normal, q.ray->direction) < 0.0);
+}
+
+void order_tied(const Query& q, std::vector<Hit>& hits) {
+  for (std::size_t k = 1; k < hits.size(); ++k)
+    for (std::size_t j = k; j > 0 && are_tied(q, hits[j], hits[j - 1]); --j) {
+      if (!comes_first(q, hits[j], hits[j - 1])) break;
+      std::swap(hits[j], hits[j - 1]);
+    }
 }
 
 }  // namespace rondure

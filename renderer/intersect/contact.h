@@ -61,6 +61,9 @@ bool are_tied(const Query& query, const Hit& a, const Hit& b);
 // entered first and the inner left first.
 bool comes_first(const Query& query, const Hit& a, const Hit& b);
 
+// Puts hits that are in order of t, but tied, in the order in which they come.
+void order_tied(const Query& query, std::vector<Hit>& hits);
+
 // Whether a crossing is where its ray starts, on a surface of `start_extent`, to rounding.
 inline bool is_at_start(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_extent,
                         const Crossing& c) {

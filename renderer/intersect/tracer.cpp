@@ -307,10 +307,7 @@ std::vector<Hit> Tracer::all(const Ray& ray) const {
     out.push_back(hits[k]);
     out_signs.push_back(signs[k]);
   }
-  for (std::size_t k = 1; k < out.size(); ++k)
-    for (std::size_t j = k; j > 0 && are_tied(q, out[j], out[j - 1]) && comes_first(q, out[j], out[j - 1]);
-         --j)
-      std::swap(out[j], out[j - 1]);
+  order_tied(q, out);
   for (Hit& hit : out) implementation_->finish_hit(hit);
   return out;
 }
