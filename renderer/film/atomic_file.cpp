@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/film/ending_signals.h"
+
 namespace rondure {
 namespace {
 
@@ -121,7 +123,7 @@ void AtomicFile::commit() {
 }
 
 void delete_unfinished_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+  for (const int signal : ending_signals) {
     struct sigaction action {};
     // What was ignored stays so: the program may run behind nohup.
     if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;

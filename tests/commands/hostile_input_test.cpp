@@ -283,7 +283,7 @@ TEST_CASE("a disk that fills up leaves nothing behind", "[commands][hostile]") {
 TEST_CASE("a program that is told to end leaves nothing behind", "[commands][hostile]") {
   const std::string folder = folder_with("hostile_signal");
   const std::vector<std::string> before = names_in(folder);
-  for (const char* signal : {"INT", "TERM", "HUP"}) {
+  for (const char* signal : {"INT", "TERM", "HUP", "XCPU"}) {
     CAPTURE(signal);
     // The pipe that is never written to keeps the program waiting; a shell's background would ignore Ctrl-C.
     const std::string shell =

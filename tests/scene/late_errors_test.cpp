@@ -25,8 +25,7 @@ std::string patch(const std::string& weight) {
 TEST_CASE("nets that no solver can bound are shown at their object", "[scene]") {
   const std::string endless =
       "a weight is not positive near (u, v) = (0.5, 1), or next to nothing beside the largest, however "
-      "finely "
-      "the patch is divided, so that it cannot be bounded";
+      "finely the patch is divided, so that it cannot be bounded";
   const std::string second =
       "  { \"type\": \"bezier\", \"patches\": [" + patch("1") + ", " + patch("-1") + "] }";
   const std::string message = complaint("{ \"objects\": [\n  { \"type\": \"sphere\" },\n" + second + "\n] }");
