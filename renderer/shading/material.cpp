@@ -1,5 +1,6 @@
 #include "renderer/shading/material.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -25,6 +26,14 @@ dvec3 facing(const dvec3& normal, const dvec3& out) { return glm::dot(normal, ou
 
 dvec3 reflect(const dvec3& out, const dvec3& normal) { return 2.0 * glm::dot(out, normal) * normal - out; }
 
+// The same off a surface, which the light leaves on the side where it came, however it grazes: by less than
+// rounding it would go on along the wall on either.
+dvec3 bounce_off(const dvec3& normal, const dvec3& out) {
+  constexpr double least = 0x1p-50;
+  const double height = glm::dot(out, normal);
+  return 2.0 * std::copysign(std::max(std::fabs(height), least), height) * normal - out;
+}
+
 using Sampled = std::optional<ScatterSample>;
 
 Sampled sample(const Diffuse& m, const dvec3& normal, const dvec3& out, double, dvec2 uv) {
@@ -34,7 +43,7 @@ Sampled sample(const Diffuse& m, const dvec3& normal, const dvec3& out, double, 
 }
 
 Sampled sample(const Mirror& m, const dvec3& normal, const dvec3& out, double, dvec2) {
-  return ScatterSample{glm::normalize(reflect(out, normal)), m.reflectance, 0.0, true};
+  return ScatterSample{glm::normalize(bounce_off(normal, out)), m.reflectance, 0.0, true};
 }
 
 Sampled sample(const Dielectric& m, const dvec3& normal, const dvec3& out, double lobe, dvec2) {
@@ -43,7 +52,7 @@ Sampled sample(const Dielectric& m, const dvec3& normal, const dvec3& out, doubl
   const double eta = side < 0.0 ? 1.0 / m.ior : m.ior;  // far over near
   const double cosine = std::min(1.0, std::abs(side));
   const double reflectance = fresnel_dielectric(cosine, eta);
-  if (lobe < reflectance) return ScatterSample{glm::normalize(reflect(out, n)), dvec3(1.0), 0.0, true};
+  if (lobe < reflectance) return ScatterSample{glm::normalize(bounce_off(n, out)), dvec3(1.0), 0.0, true};
   const double far = std::sqrt(1.0 - (1.0 - cosine * cosine) / (eta * eta));
   const dvec3 direction = glm::normalize((cosine / eta - far) * n - out / eta);
   // Radiance over index squared is what an interface conserves.

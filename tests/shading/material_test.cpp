@@ -1,13 +1,17 @@
 #include "renderer/shading/material.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <random>
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warps.h"
 #include "renderer/shading/fresnel.h"
 #include "tests/catch.h"
+#include "tests/intersect/random_direction.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
@@ -181,6 +185,33 @@ TEST_CASE("Fresnel reflectance has its known values", "[shading]") {
   const dvec3 copper = fresnel_conductor(1.0, {0.2, 0.92, 1.1}, {3.9, 2.45, 2.14});
   CHECK(copper.x ==
         Approx((0.64 + 15.21) / (1.44 + 15.21)).epsilon(1e-13));  // ((n-1)^2 + k^2) / ((n+1)^2 + k^2)
+}
+
+// By less than rounding the law of reflection alone puts the light on either side: of these directions a
+// third.
+TEST_CASE("light that grazes leaves on the side where it came", "[shading]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> digits(13.0, 20.0);
+  long through = 0;
+  WorstCase moved;
+  for (const Material& material : {Material{Mirror{}}, Material{Dielectric{1.5, dvec3(1.0)}}})
+    for (int k = 0; k < 20000; ++k) {
+      const dvec3 n = random_direction(random);
+      const dvec3 along = glm::normalize(glm::cross(n, random_direction(random)));
+      const dvec3 out =
+          glm::normalize(along + (k % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, -digits(random)) * n);
+      const double height = glm::dot(n, out);
+      const auto reflected = sample_scattering(material, n, out, 0.0, {});
+      REQUIRE(reflected);
+      const double leaves = glm::dot(n, reflected->direction);
+      through += height < 0.0 ? !(leaves < 0.0) : !(leaves > 0.0);
+      // 2^-49 as its height is raised at most, and four roundings.
+      moved.add(glm::length(reflected->direction + out - 2.0 * height * n), 0x1p-49 + 0x1p-51,
+                [&] { return fmt::format("at a height of {}", height); });
+    }
+  CHECK(through == 0);
+  INFO(moved.text());
+  CHECK(moved.failures() == 0);
 }
 
 TEST_CASE("glass obeys Snell's law and splits light by Fresnel's", "[shading]") {
