@@ -1,5 +1,6 @@
 #include "renderer/intersect/contact.h"
 
+#include <algorithm>
 #include <glm/matrix.hpp>
 #include <utility>
 
@@ -48,11 +49,13 @@ bool is_within(const PlacedSurface* surfaces, const Wall& wall, const Wall& othe
   return size != most ? size < most : wall.surface > other.surface;
 }
 
+// Of the error of t what is not its own rounding.
+double own_error(const Hit& hit) { return std::max(0.0, hit.t_error - 0x1p-52 * std::fabs(hit.t)); }
+
 // How far a start on a surface of `start_extent`, in the hit's place, may be from it and know it
 // (is_at_start), in t: that the ray has come from far away counts no more there.
 double known_within(const PlacedSurface& surface, const Hit& hit, double start_extent) {
-  const double error = std::fmax(hit.t_error - 0x1p-52 * std::fabs(hit.t), 0.0);
-  return error * doubt_at(extent_of(surface), start_extent, hit.point, surface.origin);
+  return own_error(hit) * doubt_at(extent_of(surface), start_extent, hit.point, surface.origin);
 }
 
 // How much further a is on the ray by where the two are.
@@ -82,17 +85,14 @@ Contact contact_of(const PlacedSurface* surfaces, const Wall& wall, const Wall& 
   return out;
 }
 
-double tie_reach(const Query& q, const Hit& hit) {
-  const PlacedSurface& surface = q.surfaces[hit.surface];
-  return known_within(surface, hit, std::fmax(q.widest, extent_of(surface))) + 0x1p-49 * std::fabs(hit.t);
+double most_doubt(const PlacedSurface& surface, double widest) {
+  if (surface.compiled->bounds.empty()) return 1.0;
+  const double extent = extent_of(surface);
+  return doubt_at(extent, widest, glm::abs(surface.origin) + extent, surface.origin);
 }
 
-double most_doubt(std::span<const PlacedSurface> surfaces, double widest) {
-  double most = 1.0;
-  for (const PlacedSurface& s : surfaces)
-    if (!s.compiled->bounds.empty())
-      most = std::max(most, doubt_at(extent_of(s), widest, glm::abs(s.origin) + extent_of(s), s.origin));
-  return 8.0 + most;  // errors of t by its own rounding
+double tie_reach(const Query& q, const Hit& hit) {
+  return own_error(hit) * q.surfaces[hit.surface].doubt + own_roundings * 0x1p-52 * std::fabs(hit.t);
 }
 
 bool are_tied(const Query& q, const Hit& a, const Hit& b) {

@@ -46,11 +46,12 @@ inline double doubt_at(double extent, double start_extent, const dvec3& point, c
   return 1.0 + 2.0 * moved / (0x1p-50 * extent);
 }
 
-// How far from a hit, in t, others may be that are tied with it, if `widest` is the extent of the largest
-// surface.
+// What doubt_at comes to at most at hits of a surface, if `widest` is the extent of the scene's largest one.
+double most_doubt(const PlacedSurface& surface, double widest);
+// Roundings of t by which hits may be apart that are tied, beside their other errors.
+inline constexpr double own_roundings = 8.0;
+// How far from a hit, in t, others may be that are tied with it.
 double tie_reach(const Query& query, const Hit& hit);
-// The same, at most, in errors of t, of all hits in a scene.
-double most_doubt(std::span<const PlacedSurface> surfaces, double widest);
 
 // Whether rounding does not tell which comes first: a path that has gone on from either of them would know
 // the other as one at its start (is_at_start).

@@ -65,8 +65,14 @@ FoldResult solve_fold(const Shape& shape, const dvec2* f, bool swapped, Interval
     const double turn = side == 0 ? -1.0 : 1.0;
     // From beyond the root, Newton's method on a convex function closes in without crossing it. But not from
     // far beyond the cell, where the function need not be convex: what root is out there is no matter here.
-    const double limit = side == 0 ? std::min(x, -outskirts) : std::max(x, 1.0 + outskirts);
-    double rx = turn * std::min(turn * (x + turn * spread), turn * limit), ry = y + at.dy * (rx - x);
+    const double limit = side == 0 ? -outskirts : 1.0 + outskirts;
+    double rx = x + turn * spread;
+    if (turn * (x - limit) >= 0.0) {
+      result.at[side] = axes.to_cell(rx, y + at.dy * (rx - x));
+      continue;
+    }
+    rx = turn * std::min(turn * rx, turn * limit);
+    double ry = y + at.dy * (rx - x);
     for (int k = 0; k < 40; ++k) {
       const Along r = along_graph(shape, f, axes, rx, ry);
       if (!(std::fabs(r.dh) > 0.0)) break;

@@ -16,7 +16,7 @@ struct PacketTarget {
   const Hierarchy* hierarchy;
   bool one_frame;  // the origins are all at the hierarchy's centre
   double spread;   // how far apart, in the scene's radii, rays may enter that still meet the same leaves
-  double doubt;    // most_doubt (contact.h); 0 where there is one surface
+  double doubt;    // how many errors of t hits may be apart that are tied; 0 where there is one surface
 };
 
 // Whether the surface is one of nets with leaves of its own, as all must be that are met so.

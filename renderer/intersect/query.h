@@ -52,6 +52,7 @@ struct PlacedSurface {
   dvec3 origin{0.0};
   const PatchedSphere* sphere = nullptr;  // where that, and no other ellipsoid, is all
   const CompiledSurface* compiled = nullptr;
+  double doubt = 1.0;                // most_doubt (contact.h)
   std::span<const std::byte> boxes;  // of its cluster: what a ray needs first, and has to wait for
 };
 
@@ -69,7 +70,6 @@ struct Query {
   const PlacedSurface* surfaces;
   const Ray* ray;
   Mode mode;
-  double widest;          // the extent of the scene's largest surface
   Entry entry{};          // into the hierarchy that is being traversed
   unsigned instance = 0;  // whose hierarchy that is, if it is not the scene's
   // The ray's local forms: the direction is the same in all, the base changes with the surface.

@@ -26,7 +26,6 @@ struct Tracer::Implementation {
   std::vector<PlacedSurface> placed;      // all, in order
   std::size_t leaf_count = 0;
   std::unique_ptr<Hierarchy> hierarchy;
-  double widest = 0.0;     // the extent of the largest surface
   bool one_frame = false;  // the surfaces' origins are all at the hierarchy's centre
 
   std::vector<LeafName> few;          // of so few leaves that no hierarchy pays
@@ -91,7 +90,7 @@ struct Tracer::Implementation {
 
   void finish_hit(Hit& hit) const { finish(placed[static_cast<std::size_t>(hit.surface)], hit); }
 
-  Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode, widest}; }
+  Query make_query(const Ray& ray, Mode mode) const { return Query{placed.data(), &ray, mode}; }
 };
 
 namespace {
@@ -104,8 +103,7 @@ constexpr std::size_t few_rays = 4;
 constexpr double leaves_apart = 4.0;
 // Beyond so many leaves of small surfaces these are met surface by surface (leaf_cluster.h).
 constexpr std::size_t clustered_leaves = 1 << 18;
-// So many leaves are met one by one.
-constexpr std::size_t few_leaves = 2;
+constexpr std::size_t few_leaves = 2;  // are met one by one
 
 }  // namespace
 
@@ -162,6 +160,7 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
     });
 
   Box world;
+  double widest = 0.0, most = 0.0;
   for (unsigned k = 0; k < count; ++k) {
     PlacedSurface& placed = self.placed[k];
     placed.compiled = self.placed[twins[k]].compiled;
@@ -172,10 +171,11 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
       placed.sphere = sphere;
     if (const Box& bounds = compiled.bounds; !bounds.empty()) {
       world.add(Box{bounds.low + placed.origin, bounds.high + placed.origin});
-      self.widest = std::max(self.widest, extent_of(placed));
+      widest = std::max(widest, extent_of(placed));
     }
   }
   if (world.empty()) return;
+  for (PlacedSurface& placed : self.placed) most = std::max(most, placed.doubt = most_doubt(placed, widest));
   // A common origin that is in the middle, or nearly, spares each ray a second local form.
   dvec3 center = world.center();
   const dvec3 common = self.placed.front().origin;
@@ -221,9 +221,9 @@ Tracer::Tracer(std::vector<TracedSurface> surfaces) : implementation_(std::make_
   if (self.few.empty() && self.hierarchy->packet_width() > 0 &&
       std::all_of(self.placed.begin(), self.placed.end(),
                   [](const PlacedSurface& s) { return can_meet_packets(s); }))
-    self.packets = PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
-                                leaves_apart * size * self.hierarchy->unit(),
-                                count == 1 ? 0.0 : most_doubt(self.placed, self.widest)};
+    self.packets =
+        PacketTarget{self.placed.data(), self.hierarchy.get(), self.one_frame,
+                     leaves_apart * size * self.hierarchy->unit(), count == 1 ? 0.0 : most + own_roundings};
 }
 
 Tracer::~Tracer() = default;
