@@ -38,6 +38,11 @@ inline double extent_of(const PlacedSurface& surface) {
   return std::max(largest(bounds.low), largest(bounds.high));
 }
 
+// And how large the surface itself is.
+inline double size_of(const PlacedSurface& surface) {
+  return largest(surface.compiled->bounds.high - surface.compiled->bounds.low);
+}
+
 // Of errors of a crossing of a surface of `extent`, at a ray's start or hit in `point`: how many the start
 // adds where it is rounded, on a surface of `start_extent`. It moves the crossing along the ray as the
 // crossing's own error does, which was 2^-50 of the extent at least.
@@ -45,25 +50,6 @@ inline double doubt_at(double extent, double start_extent, const dvec3& point, c
   const double moved = 0x1p-51 * start_extent + 0x1p-52 * (largest(point) + largest(frame));
   return 1.0 + 2.0 * moved / (0x1p-50 * extent);
 }
-
-// What doubt_at comes to at most at hits of a surface, if `widest` is the extent of the scene's largest one.
-double most_doubt(const PlacedSurface& surface, double widest);
-// Roundings of t by which hits may be apart that are tied, beside their other errors.
-inline constexpr double own_roundings = 8.0;
-// How far from a hit, in t, others may be that are tied with it.
-double tie_reach(const Query& query, const Hit& hit);
-
-// Whether rounding does not tell which comes first: a path that has gone on from either of them would know
-// the other as one at its start (is_at_start).
-bool are_tied(const Query& query, const Hit& a, const Hit& b);
-
-// Which of two hits of the query's ray comes first: the nearer one, but where surfaces touch the one whose
-// wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer is
-// entered first and the inner left first.
-bool comes_first(const Query& query, const Hit& a, const Hit& b);
-
-// Puts hits that are in order of t, but tied, in the order in which they come.
-void order_tied(const Query& query, std::vector<Hit>& hits);
 
 // Whether a crossing is where its ray starts, on a surface of `start_extent`, to rounding.
 inline bool is_at_start(const Ray& ray, const LocalRay& local, const dvec3& frame, double start_extent,

@@ -63,7 +63,8 @@ struct LeafSet {
 };
 
 // Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular
-// points, for `max_depth` halvings; what is not tame then goes to `clipping`, slower and just as right.
+// points, for `max_depth` halvings, and beside places of little weight some more; what is not tame then goes
+// to `clipping`, slower and just as right.
 // Throws std::runtime_error, naming the patch, when a net is not finite, is of too high a degree, or has
 // weights that stay of both signs (or zero) under subdivision. Patches k with without[k] are
 // left out.

@@ -20,6 +20,11 @@ constexpr int weight_depth = 40;  // halvings after which a weight that is still
 // Cells that a patch may be divided into beyond its depth until their weights are positive. Beside a zero of
 // the weight there are some at each halving; where the weight all but vanishes along a curve, without end.
 constexpr int most_beyond_depth = 1 << 16;
+// Rounding is relative to a leaf's largest weight: beside a place of little weight cells are divided beyond
+// their depth until theirs differ by no more than this. Of these there may be so many times two to the depth:
+// fewer in each of many patches.
+constexpr double most_unequal = 4.0;
+constexpr int most_unequal_cells = 8;
 
 RectangleCell enlarged(const RectangleCell& c) {
   const dvec2 middle = 0.5 * (c.low + c.high);
@@ -70,11 +75,12 @@ class Builder {
     leaf.patch = patch_;
     place(cell, leaf);
     const SecondOrder<dvec4> center = arithmetic.second(shape_, net_, Shape::to_patch(cell, Shape::center()));
-    bool positive = false;
+    bool positive = false, equal = true;
     if (uneven == 0 || depth >= depth_) {
       const dvec4 *points = scratch_.points.data(), *wide = scratch_.wide.data();
       restriction.points(cell, scratch_.points.data());
-      positive = std::all_of(points, points + shape_.size(), [](const dvec4& p) { return p.w > 0.0; });
+      const auto [least, most] = weights_of(points);
+      positive = least > 0.0, equal = most <= most_unequal * least;
       Evenness evenness;
       if (positive) {
         leaf.scale = restriction.scale(cell);
@@ -82,13 +88,15 @@ class Builder {
         evenness = set_frame(shape_, arithmetic, restriction.parameters, center, points, wide, leaf);
       }
       const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
-      if (tame || (positive && depth >= depth_)) {
+      const bool far_enough =
+          equal || depth >= weight_depth || beyond_depth_ >= (most_unequal_cells << depth_);
+      if (tame || (positive && depth >= depth_ && far_enough)) {
         some_tame_ = some_tame_ || tame;
         out_.leaves.push_back(leaf);
         out_.boxes.push_back(arithmetic.box(shape_.size(), points));
         return;
       }
-      uneven = halvings_left(evenness);
+      uneven = equal ? halvings_left(evenness) : 0;
     }
     if (depth >= weight_depth || (depth >= depth_ && ++beyond_depth_ > most_beyond_depth))
       throw std::runtime_error(
@@ -98,7 +106,7 @@ class Builder {
     typename Shape::Cell low, high;
     int edge;
     if constexpr (std::is_same_v<Shape, TensorShape>)
-      edge = longer_across_a(center, leaf) ? 0 : 1;
+      edge = (positive && !equal ? longer_across_a() : longer_across_a(center, leaf)) ? 0 : 1;
     else
       edge = Shape::longest_edge(cell);
     Shape::halve(cell, edge, low, high);
@@ -123,6 +131,30 @@ class Builder {
   static int halvings_left(const Evenness& e) {
     const double excess = std::max(e.straight / straight_target, e.oblique / oblique_target);
     return excess < 1e6 ? std::max(static_cast<int>(2.0 * std::log2(excess)) - 3, 0) : 0;
+  }
+
+  std::pair<double, double> weights_of(const dvec4* points) const {
+    double least = points[0].w, most = least;
+    for (int k = 1; k < shape_.size(); ++k)
+      least = std::min(least, points[k].w), most = std::max(most, points[k].w);
+    return {least, most};
+  }
+
+  // Whether the control net of the cell last restricted to is longer along a than along b: where weights are
+  // unequal, most of a surface is where its centre tells nothing of.
+  bool longer_across_a() const {
+    const auto& [m, n] = shape_;
+    const auto at = [&](int i, int j) {
+      const dvec4& p = scratch_.points[static_cast<std::size_t>(i * (n + 1) + j)];
+      return dvec3(p) / p.w;
+    };
+    double a = 0.0, b = 0.0;
+    for (int i = 0; i <= m; ++i)
+      for (int j = 0; j <= n; ++j) {
+        if (i < m) a += glm::distance(at(i, j), at(i + 1, j)) / (n + 1);
+        if (j < n) b += glm::distance(at(i, j), at(i, j + 1)) / (m + 1);
+      }
+    return a >= b;
   }
 
   // Whether the surface is longer along a than along b.

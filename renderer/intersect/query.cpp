@@ -6,8 +6,9 @@
 #include "renderer/bezier/normal.h"
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
-#include "renderer/intersect/contact.h"
+#include "renderer/intersect/hit_order.h"
 #include "renderer/intersect/passed_walls.h"
+#include "renderer/intersect/search_budget.h"
 #include "renderer/intersect/slab.h"
 #include "renderer/intersect/solve_leaf.h"
 #include "renderer/intersect/surface_crossing.h"
@@ -15,7 +16,7 @@
 namespace rondure {
 namespace {
 
-constexpr std::size_t cells_per_query = 1 << 15;
+thread_local SearchBudget search_budget;  // of the thread's query
 
 // Whether the crossing is a hit, in the query's ray (`local` in some frame), of `surface`; `t` receives its
 // place. `normal()`: there, outward, of length one.
@@ -49,9 +50,13 @@ bool is_beyond(const Query& q, double t) { return q.mode == Mode::closest && t >
 double end_of(const Query& q) { return std::min(q.ray->t_max, q.tied_until); }
 
 void take_if_first(Query& q, const Hit& hit, float& far) {
-  if (q.best && !comes_first(q, hit, q.best)) return;
+  if (q.best) {
+    const double reach = q.tied_until - q.best.t;
+    q.ties += hit.surface != q.best.surface && std::fabs(hit.t - q.best.t) <= reach;
+    if (!comes_first(q, hit, q.best)) return;
+  }
   q.best = hit;
-  q.tied_until = hit.t + tie_reach(q, hit);
+  q.tied_until = hit.t + 2.0 * tie_reach(q, hit);
   far = std::min(far, q.entry.round_far(q.tied_until));
 }
 
@@ -216,10 +221,8 @@ void make_planes(Query& q) {
   set_distances(q.local);
   q.has_distances = true;
   if (q.counts) return;
-  // A net on which a ray takes this many cells is degenerate; it must not stop the program.
   q.counts = &thread_counts();
-  SearchCounts& search = q.counts->search;
-  search.limit = search.cells + cells_per_query;
+  search_budget.start();
 }
 
 bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
@@ -246,7 +249,8 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
   if (leaf_index >= ordinary)
     solve_radial(compiled.radial[leaf_index - ordinary], leaf, net, q.local, roots);
   else
-    search_leaf(leaf, net, q.local, roots, *q.counts);
+    search_budget.spend(surface, q.counts->search,
+                        [&] { search_leaf(leaf, net, q.local, roots, *q.counts); });
   for (const Root& root : roots)
     if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), far)) return true;
   return false;
@@ -293,21 +297,6 @@ bool visit_cluster(Query& q, unsigned surface, float& far) {
 }
 
 }  // namespace
-
-bool nearer(const Hit& a, const Hit& b) {
-  if (a.t != b.t) return a.t < b.t;
-  if (a.surface != b.surface) return a.surface < b.surface;
-  if (a.patch != b.patch) return a.patch < b.patch;
-  // Where two leaves of one patch meet, both find the root, a last bit apart, or only what follows from it
-  // is.
-  if (a.u != b.u) return a.u < b.u;
-  if (a.v != b.v) return a.v < b.v;
-  if (a.t_error != b.t_error) return a.t_error < b.t_error;
-  for (const dvec3 Hit::*vector : {&Hit::point, &Hit::normal})
-    for (int k = 0; k < 3; ++k)
-      if ((a.*vector)[k] != (b.*vector)[k]) return (a.*vector)[k] < (b.*vector)[k];
-  return false;
-}
 
 bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept {
   const CompiledSurface& compiled = *q.surfaces[surface].compiled;

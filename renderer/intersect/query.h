@@ -52,7 +52,7 @@ struct PlacedSurface {
   dvec3 origin{0.0};
   const PatchedSphere* sphere = nullptr;  // where that, and no other ellipsoid, is all
   const CompiledSurface* compiled = nullptr;
-  double doubt = 1.0;                // most_doubt (contact.h)
+  double doubt = 1.0;                // most_doubt (hit_order.h)
   std::span<const std::byte> boxes;  // of its cluster: what a ray needs first, and has to wait for
 };
 
@@ -79,14 +79,12 @@ struct Query {
   bool local_valid = false;
   bool has_normals = false, has_distances = false;
   Hit best{};
-  double tied_until = INFINITY;    // how far hits are that may be tied with that
+  double tied_until = INFINITY;    // how far hits are that may be tied with that, or with one that is
+  int ties = 0;                    // how often another surface's was as near
   SolverCounts* counts = nullptr;  // once a net has been met
   std::vector<Hit>* hits = nullptr;
   std::vector<int>* signs = nullptr;
 };
-
-// Total, so that which hit is reported does not depend on the order in which leaves are visited.
-bool nearer(const Hit& a, const Hit& b);
 
 // Meets one leaf (an analytic surface has one, 0). `far` is lowered where a hit narrows the search. True when
 // an occlusion query is settled.

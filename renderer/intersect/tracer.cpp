@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "renderer/intersect/contact.h"
+#include "renderer/intersect/hit_order.h"
 #include "renderer/intersect/newton_packets.h"
 #include "renderer/intersect/query.h"
 #include "renderer/intersect/short_ray.h"
@@ -58,8 +58,7 @@ struct Tracer::Implementation {
     }
     Query q = make_query(ray, Mode::closest);
     visit(q);
-    if (q.best) finish_hit(q.best);
-    return q.best;
+    return first_of(q);
   }
 
   Hit closest(const Ray& ray, const PreparedRay& prepared) const {
@@ -67,8 +66,30 @@ struct Tracer::Implementation {
     q.local = prepared.local, q.entry = prepared.entry, q.has_normals = true;
     if (one_frame) q.local_surface = Query::every_surface, q.local_valid = true;
     hierarchy->visit_all(q.local, q.entry, &q);
+    return first_of(q);
+  }
+
+  // Which of three or more that are tied comes first, is settled in the order of all.
+  Hit first_of(Query& q) const {
+    if (q.ties > 1) return all(*q.ray).front();
     if (q.best) finish_hit(q.best);
     return q.best;
+  }
+
+  std::vector<Hit> all(const Ray& ray) const {
+    std::vector<Hit> hits;
+    if (is_short(ray)) {
+      for (const Hit& hit : all(lengthened(ray)))
+        if (can_shorten(hit)) hits.push_back(shortened(hit));
+      return hits;
+    }
+    std::vector<int> signs;
+    Query q = make_query(ray, Mode::all);
+    q.hits = &hits, q.signs = &signs;
+    visit(q);
+    hits = in_order(q, hits, signs);
+    for (Hit& hit : hits) finish_hit(hit);
+    return hits;
   }
 
   // As the public one, where packets are met.
@@ -276,41 +297,7 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded) const
   for (std::size_t k = 0; k < rays.size(); ++k) occluded[k] = this->occluded(rays[k]);
 }
 
-std::vector<Hit> Tracer::all(const Ray& ray) const {
-  std::vector<Hit> hits;
-  if (is_short(ray)) {
-    for (const Hit& hit : all(lengthened(ray)))
-      if (can_shorten(hit)) hits.push_back(shortened(hit));
-    return hits;
-  }
-  std::vector<int> signs;
-  Query q = implementation_->make_query(ray, Mode::all);
-  q.hits = &hits, q.signs = &signs;
-  implementation_->visit(q);
-
-  std::vector<std::size_t> order(hits.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return nearer(hits[a], hits[b]); });
-  std::vector<Hit> out;
-  std::vector<int> out_signs;
-  for (const std::size_t k : order) {
-    // Neighbouring patches (and leaves) both report a point on their seam: same surface, same crossing, same
-    // t to rounding.
-    bool known = false;
-    for (std::size_t j = out.size(); j-- > 0 && !known;) {
-      if (hits[k].t - out[j].t > hits[k].t_error + out[j].t_error) continue;
-      const bool same_way = signs[k] == out_signs[j] || signs[k] == 0 || out_signs[j] == 0;
-      known = out[j].surface == hits[k].surface && same_way;
-    }
-    if (known) continue;
-    out.push_back(hits[k]);
-    out_signs.push_back(signs[k]);
-  }
-  order_tied(q, out);
-  for (Hit& hit : out) implementation_->finish_hit(hit);
-  return out;
-}
+std::vector<Hit> Tracer::all(const Ray& ray) const { return implementation_->all(ray); }
 
 const std::vector<TracedSurface>& Tracer::surfaces() const { return implementation_->surfaces; }
 dvec3 Tracer::bounding_center() const {
