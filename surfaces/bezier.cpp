@@ -61,7 +61,8 @@ void register_bezier(Registry& registry) {
                       "keyed \"ijk\" (or \"i,j,k\") for u^i v^j w^k with \"degree\": n"},
                      {"file", "string", "\"\"",
                       "instead of patches: a JSON file {\"patches\": [...]}, found from the scene's folder"},
-                     {"closed", "boolean", "false", "the patches bound a solid"}},
+                     {"closed", "boolean", "false",
+                      "the patches bound a solid; the normals d/du x d/dv of all must then point outward"}},
                     build});
 }
 
