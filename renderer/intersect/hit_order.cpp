@@ -100,6 +100,8 @@ std::vector<Hit> in_order(const Query& q, const std::vector<Hit>& hits, const st
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return nearer(hits[a], hits[b]); });
+  double widest = 0.0;
+  for (const Hit& hit : hits) widest = std::max(widest, hit.t_error);
   std::vector<Hit> out;
   std::vector<int> out_signs;
   for (const std::size_t k : order) {
@@ -107,6 +109,7 @@ std::vector<Hit> in_order(const Query& q, const std::vector<Hit>& hits, const st
     // t to rounding.
     bool known = false;
     for (std::size_t j = out.size(); j-- > 0 && !known;) {
+      if (hits[k].t - out[j].t > hits[k].t_error + widest) break;
       if (hits[k].t - out[j].t > hits[k].t_error + out[j].t_error) continue;
       const bool same_way = signs[k] == out_signs[j] || signs[k] == 0 || out_signs[j] == 0;
       known = out[j].surface == hits[k].surface && same_way;

@@ -21,10 +21,9 @@ constexpr int weight_depth = 40;  // halvings after which a weight that is still
 // the weight there are some at each halving; where the weight all but vanishes along a curve, without end.
 constexpr int most_beyond_depth = 1 << 16;
 // Rounding is relative to a leaf's largest weight: beside a place of little weight cells are divided beyond
-// their depth until theirs differ by no more than this. Of these there may be so many times two to the depth:
-// fewer in each of many patches.
+// their depth until theirs differ by no more than this, or twice as many are as the depth allows, or these.
 constexpr double most_unequal = 4.0;
-constexpr int most_unequal_cells = 8;
+constexpr std::size_t least_unequal_divisions = 32;
 
 RectangleCell enlarged(const RectangleCell& c) {
   const dvec2 middle = 0.5 * (c.low + c.high);
@@ -67,51 +66,9 @@ class Builder {
     scratch.points.resize(net.size()), scratch.wide.resize(net.size());
   }
 
-  // `uneven`: how many more halvings there must be, at least, before a leaf can be tame.
-  void divide(const typename Shape::Cell& cell, int depth, int uneven = 0) {
-    Restriction<Shape>& restriction = scratch_.restriction;
-    const LeafArithmetic<Shape>& arithmetic = restriction.arithmetic;
-    Leaf leaf;
-    leaf.patch = patch_;
-    place(cell, leaf);
-    const SecondOrder<dvec4> center = arithmetic.second(shape_, net_, Shape::to_patch(cell, Shape::center()));
-    bool positive = false, equal = true;
-    if (uneven == 0 || depth >= depth_) {
-      const dvec4 *points = scratch_.points.data(), *wide = scratch_.wide.data();
-      restriction.points(cell, scratch_.points.data());
-      const auto [least, most] = weights_of(points);
-      positive = least > 0.0, equal = most <= most_unequal * least;
-      Evenness evenness;
-      if (positive) {
-        leaf.scale = restriction.scale(cell);
-        restriction.points(enlarged(cell), scratch_.wide.data());
-        evenness = set_frame(shape_, arithmetic, restriction.parameters, center, points, wide, leaf);
-      }
-      const bool tame = evenness.straight < straight_target && evenness.oblique < oblique_target;
-      const bool far_enough =
-          equal || depth >= weight_depth || beyond_depth_ >= (most_unequal_cells << depth_);
-      if (tame || (positive && depth >= depth_ && far_enough)) {
-        some_tame_ = some_tame_ || tame;
-        out_.leaves.push_back(leaf);
-        out_.boxes.push_back(arithmetic.box(shape_.size(), points));
-        return;
-      }
-      uneven = equal ? halvings_left(evenness) : 0;
-    }
-    if (depth >= weight_depth || (depth >= depth_ && ++beyond_depth_ > most_beyond_depth))
-      throw std::runtime_error(
-          fmt::format("patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), or next to nothing "
-                      "beside the largest, however finely the patch is divided, so that it cannot be bounded",
-                      patch_, leaf.to_patch(Shape::center()).x, leaf.to_patch(Shape::center()).y));
-    typename Shape::Cell low, high;
-    int edge;
-    if constexpr (std::is_same_v<Shape, TensorShape>)
-      edge = (positive && !equal ? longer_across_a() : longer_across_a(center, leaf)) ? 0 : 1;
-    else
-      edge = Shape::longest_edge(cell);
-    Shape::halve(cell, edge, low, high);
-    divide(low, depth + 1, std::max(uneven - 1, 0));
-    divide(high, depth + 1, std::max(uneven - 1, 0));
+  void build() {
+    divide({}, 0);
+    even_out();
   }
 
   bool some_tame() const { return some_tame_; }
@@ -125,6 +82,108 @@ class Builder {
   LeafSet& out_;
   bool some_tame_ = false;
   int beyond_depth_ = 0;  // cells divided there
+
+  struct Deep {
+    typename Shape::Cell cell;
+    int depth;
+  };
+  std::vector<Deep> unequal_;  // cells of unequal weights that are no leaves yet
+
+  // A cell that may be a leaf.
+  struct Piece {
+    Leaf leaf;
+    SecondOrder<dvec4> center;
+    bool positive = false, equal = true, tame = false;  // the weights, twice, and the leaf
+    Evenness evenness;
+  };
+
+  Piece piece_of(const typename Shape::Cell& cell) const {
+    Piece piece;
+    piece.leaf.patch = patch_;
+    place(cell, piece.leaf);
+    piece.center =
+        scratch_.restriction.arithmetic.second(shape_, net_, Shape::to_patch(cell, Shape::center()));
+    return piece;
+  }
+
+  // Restricts the net to the cell, in scratch_.points.
+  void examine(const typename Shape::Cell& cell, Piece& piece) {
+    Restriction<Shape>& restriction = scratch_.restriction;
+    const dvec4 *points = scratch_.points.data(), *wide = scratch_.wide.data();
+    restriction.points(cell, scratch_.points.data());
+    const auto [least, most] = weights_of(points);
+    piece.positive = least > 0.0, piece.equal = most <= most_unequal * least;
+    if (!piece.positive) return;
+    piece.leaf.scale = restriction.scale(cell);
+    restriction.points(enlarged(cell), scratch_.wide.data());
+    piece.evenness = set_frame(shape_, restriction.arithmetic, restriction.parameters, piece.center, points,
+                               wide, piece.leaf);
+    piece.tame = piece.evenness.straight < straight_target && piece.evenness.oblique < oblique_target;
+  }
+
+  // Of the piece that has been examined last.
+  void keep(const Piece& piece) {
+    some_tame_ = some_tame_ || piece.tame;
+    out_.leaves.push_back(piece.leaf);
+    out_.boxes.push_back(scratch_.restriction.arithmetic.box(shape_.size(), scratch_.points.data()));
+  }
+
+  // `uneven`: how many more halvings there must be, at least, before a leaf can be tame.
+  void divide(const typename Shape::Cell& cell, int depth, int uneven = 0) {
+    Piece piece = piece_of(cell);
+    if (uneven == 0 || depth >= depth_) {
+      examine(cell, piece);
+      if (piece.tame || (piece.positive && depth >= depth_)) {
+        if (piece.tame || piece.equal)
+          keep(piece);
+        else
+          unequal_.push_back({cell, depth});
+        return;
+      }
+      uneven = piece.equal ? halvings_left(piece.evenness) : 0;
+    }
+    if (depth >= weight_depth || (depth >= depth_ && ++beyond_depth_ > most_beyond_depth))
+      throw std::runtime_error(fmt::format(
+          "patch {}: a weight is not positive near (u, v) = ({:.6g}, {:.6g}), or next to nothing "
+          "beside the largest, however finely the patch is divided, so that it cannot be bounded",
+          patch_, piece.leaf.to_patch(Shape::center()).x, piece.leaf.to_patch(Shape::center()).y));
+    typename Shape::Cell low, high;
+    int edge;
+    if constexpr (std::is_same_v<Shape, TensorShape>)
+      edge = (piece.positive && !piece.equal ? longer_across_a() : longer_across_a(piece.center, piece.leaf))
+                 ? 0
+                 : 1;
+    else
+      edge = Shape::longest_edge(cell);
+    Shape::halve(cell, edge, low, high);
+    divide(low, depth + 1, std::max(uneven - 1, 0));
+    divide(high, depth + 1, std::max(uneven - 1, 0));
+  }
+
+  // Divides what cells of unequal weights there are, the largest first, across the sides along which the
+  // weights differ.
+  void even_out() {
+    std::size_t divisions = std::max(std::size_t{2} << depth_, least_unequal_divisions);
+    for (std::size_t k = 0; k < unequal_.size(); ++k) {
+      const auto [cell, depth] = unequal_[k];
+      Piece piece = piece_of(cell);
+      examine(cell, piece);
+      if (piece.tame || piece.equal || depth >= weight_depth || divisions == 0) {
+        keep(piece);
+        continue;
+      }
+      --divisions;
+      typename Shape::Cell low, high;
+      int edge;
+      if constexpr (std::is_same_v<Shape, TensorShape>)
+        edge = less_equal_along_a() ? 0 : 1;
+      else
+        edge = Shape::longest_edge(cell);
+      Shape::halve(cell, edge, low, high);
+      unequal_.push_back({low, depth + 1});
+      unequal_.push_back({high, depth + 1});
+    }
+  }
 
   // Unevenness halves with the leaf's size at best, for which each parameter must be halved; to be safe, only
   // what is far too uneven goes unexamined.
@@ -140,7 +199,25 @@ class Builder {
     return {least, most};
   }
 
-  // Whether the control net of the cell last restricted to is longer along a than along b: where weights are
+  // Whether weights of the cell last examined differ more along a than along b.
+  bool less_equal_along_a() const {
+    const auto& [m, n] = shape_;
+    const int stride = n + 1;
+    const auto spread = [&](int lines, int across, int along, int step) {
+      double most = 1.0;
+      for (int i = 0; i < lines; ++i) {
+        const dvec4* const line = scratch_.points.data() + i * across;
+        double low = line->w, high = low;
+        for (int j = 1; j <= along; ++j)
+          low = std::min(low, line[j * step].w), high = std::max(high, line[j * step].w);
+        most = std::max(most, high / low);
+      }
+      return most;
+    };
+    return spread(n + 1, 1, m, stride) >= spread(m + 1, stride, n, 1);
+  }
+
+  // Whether the control net of the cell last examined is longer along a than along b: where weights are
   // unequal, most of a surface is where its centre tells nothing of.
   bool longer_across_a() const {
     const auto& [m, n] = shape_;
@@ -215,7 +292,7 @@ LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::
       if (degree > max_degree)
         throw std::runtime_error(fmt::format("patch {}: degree {} is above {}", patch, degree, max_degree));
       Builder<decltype(shape)> builder(shape, points, patch, max_depth, scratch, out);
-      builder.divide({}, 0);
+      builder.build();
       if (!builder.some_tame()) check_area(patches[k], patch);
     };
     if (const auto* tensor = std::get_if<TensorNet>(&patches[k]))

@@ -52,7 +52,9 @@ double end_of(const Query& q) { return std::min(q.ray->t_max, q.tied_until); }
 void take_if_first(Query& q, const Hit& hit, float& far) {
   if (q.best) {
     const double reach = q.tied_until - q.best.t;
-    q.ties += hit.surface != q.best.surface && std::fabs(hit.t - q.best.t) <= reach;
+    // Of one surface two leaves may have found the same, but not its other wall.
+    const bool other = hit.surface != q.best.surface || glm::dot(hit.normal, q.best.normal) < 0.0;
+    q.ties += other && std::fabs(hit.t - q.best.t) <= reach;
     if (!comes_first(q, hit, q.best)) return;
   }
   q.best = hit;

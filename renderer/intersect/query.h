@@ -80,7 +80,7 @@ struct Query {
   bool has_normals = false, has_distances = false;
   Hit best{};
   double tied_until = INFINITY;    // how far hits are that may be tied with that, or with one that is
-  int ties = 0;                    // how often another surface's was as near
+  int ties = 0;                    // how often another wall was as near
   SolverCounts* counts = nullptr;  // once a net has been met
   std::vector<Hit>* hits = nullptr;
   std::vector<int>* signs = nullptr;

@@ -20,9 +20,10 @@ class SearchBudget {
   // Has `search()`, which counts in `counts`, take no more than what is left to the surface.
   template <class Search>
   void spend(unsigned surface, SearchCounts& counts, const Search& search) {
+    // Most likely the last that was searched.
     auto taken =
-        std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.surface == surface; });
-    if (taken == taken_.end()) taken = taken_.insert(taken, {surface, 0});
+        std::find_if(taken_.rbegin(), taken_.rend(), [&](const Taken& t) { return t.surface == surface; });
+    if (taken == taken_.rend()) taken_.push_back({surface, 0}), taken = taken_.rbegin();
     const std::size_t before = counts.cells;
     counts.limit = before + (cells_per_surface - std::min(taken->cells, cells_per_surface));
     search();

@@ -69,9 +69,13 @@ struct Tracer::Implementation {
     return first_of(q);
   }
 
-  // Which of three or more that are tied comes first, is settled in the order of all.
+  // Which of three or more that are tied comes first, is settled in the order of all that are as near.
   Hit first_of(Query& q) const {
-    if (q.ties > 1) return all(*q.ray).front();
+    if (q.ties > 1) {
+      Ray near = *q.ray;
+      near.t_max = std::min(near.t_max, q.tied_until);
+      return all(near).front();
+    }
     if (q.best) finish_hit(q.best);
     return q.best;
   }

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "tests/catch.h"
+#include "tests/intersect/boxes.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/intersect/same_bits.h"
@@ -50,4 +51,28 @@ TEST_CASE("The closest hit is the first where many are tied", "[hits]") {
   });
   CHECK(tally.rays == scenes * rays);
   CHECK(tally.differ == 0);
+}
+
+// The two walls of one body and one of another are three that are tied. Of such rays one in fifty had another
+// closest hit.
+TEST_CASE("The closest hit is the first where a thin body shares a wall", "[hits]") {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> part(-0.9, 0.9);
+  long tied = 0, differ = 0;
+  for (const double thickness : {2e-16, 5e-16, 1e-14})
+    for (const Solver solver : {Solver::newton, Solver::clipping}) {
+      const dmat3 turn = turn_about(random_direction(random), 1.0);
+      const Tracer tracer({{box({-1.0, -1.0, -thickness}, {1.0, 1.0, 0.0}, turn), solver},
+                           {box({-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0}, turn), solver}});
+      for (int k = 0; k < 400; ++k) {
+        const dvec3 d = random_direction(random);
+        const Ray ray{turn * dvec3(part(random), part(random), 0.0) - 3.0 * d, d};
+        const std::vector<Hit> all = tracer.all(ray);
+        const Hit closest = tracer.closest(ray);
+        tied += all.size() >= 3 && all[2].t - all[0].t < 1e-13;
+        differ += all.empty() ? static_cast<bool>(closest) : !same_bits(closest, all.front());
+      }
+    }
+  CHECK(tied > 500);
+  CHECK(differ == 0);
 }

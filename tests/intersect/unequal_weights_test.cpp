@@ -44,13 +44,15 @@ TEST_CASE("Weights of many orders lose no ray", "[hits]") {
     int a, b;
   };
   const Powers all[] = {{4, 0}, {0, -9}, {10, 0}, {5, -5}, {5, 5}};
-  const char* const topologies[] = {"cube", "hemispheres", "octahedron_pairs"};
+  const char* const families[] = {R"("type": "sphere_tiling", "topology": "cube")",
+                                  R"("type": "sphere_tiling", "topology": "hemispheres")",
+                                  R"("type": "sphere_tiling", "topology": "octahedron_pairs")",
+                                  R"("type": "sphere_octant")"};
   const Solver solvers[] = {Solver::newton, Solver::clipping, Solver::quadric};
-  const Tally tally = tallied<Tally>(45, [&](std::size_t which, Tally& t) {
-    const Powers& powers = all[which / 9];
-    const char* const topology = topologies[which % 9 / 3];
-    const Surface plain =
-        build_family(fmt::format(R"({{"type": "sphere_tiling", "topology": "{}"}})", topology));
+  const Tally tally = tallied<Tally>(60, [&](std::size_t which, Tally& t) {
+    const Powers& powers = all[which / 12];
+    const char* const family = families[which % 12 / 3];
+    const Surface plain = build_family(fmt::format("{{{}}}", family));
     const Surface surface = reparametrised(plain, powers.a, powers.b);
     const Tracer tracer({{surface, solvers[which % 3]}});
     // Four times: a leaf's weights may differ by as much, to which its rounding is relative.
@@ -80,7 +82,7 @@ TEST_CASE("Weights of many orders lose no ray", "[hits]") {
         t.loose += !(std::fabs(hits[j].t - exact.t[j]) <= hits[j].t_error + 4.0 * 0x1p-53 * exact.t[1]) ||
                    !(hits[j].t_error < 1e-5);
       if (!right && t.text.size() < 300)
-        t.text += fmt::format("\n{} by 2^({}, {}), solver {}, clearance {:.3g}: {} hits", topology, powers.a,
+        t.text += fmt::format("\n{} by 2^({}, {}), solver {}, clearance {:.3g}: {} hits", family, powers.a,
                               powers.b, which % 3, exact.clearance, hits.size());
     }
   });
