@@ -69,9 +69,10 @@ struct Tracer::Implementation {
     return first_of(q);
   }
 
-  // Which of three or more that are tied comes first, is settled in the order of all that are as near.
+  // Which of three or more that are tied comes first, is settled in the order of all that are as near. Where
+  // the ray goes on from a wall, what its path remembers tells more (passed_walls.h).
   Hit first_of(Query& q) const {
-    if (q.ties > 1) {
+    if (q.ties > 1 && q.ray->start.surface < 0) {
       Ray near = *q.ray;
       near.t_max = std::min(near.t_max, q.tied_until);
       return all(near).front();
