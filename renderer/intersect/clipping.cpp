@@ -272,6 +272,19 @@ class Search {
     frames[level + 1] = high;
   }
 
+  // In a sliver the gradient across it is less than rounding, and folds along it are not seen: neither side
+  // is cut to less than this part of the other.
+  static void keep_broad(const dvec2& size, dvec2& from, dvec2& to) {
+    constexpr double least = 0x1p-20;
+    const dvec2 kept = size * (to - from);
+    for (int k = 0; k < 2; ++k) {
+      const double more = least * kept[1 - k] - kept[k];
+      if (!(more > 0.0)) continue;
+      from[k] = std::fmax(from[k] - 0.5 * more / size[k], 0.0);
+      to[k] = std::fmin(to[k] + 0.5 * more / size[k], 1.0);
+    }
+  }
+
   // Shrinks the cell to where roots can be. True when the frame was finished or shrunk enough to look again.
   bool clip(int& level, Frame<Shape>& frame) {
     if (!invertible_ || shape_.m == 0 || shape_.n == 0) return false;
@@ -286,6 +299,7 @@ class Search {
     }
     // Room for the rounding of the crossings themselves.
     from = glm::max(from - 1e-12, dvec2(0.0)), to = glm::min(to + 1e-12, dvec2(1.0));
+    keep_broad(frame.cell.high - frame.cell.low, from, to);
     const dvec2 kept = to - from;
     if (kept.x * kept.y > 0.5 || frame.depth + 1 >= depth_limit) return false;
     tensor_restrict(f, shape_.m, shape_.n, from.x, to.x, from.y, to.y, f);

@@ -207,11 +207,12 @@ TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
 
 // One in 10^7 and rarer: in the plane of an edge, both roots rounded out of it; inside a corner, where
 // grazing moves a root by more than it is inside; from where Newton's method along a fold began too far
-// outside.
+// outside; in the plane of an edge, where both roots ended in one sliver along it.
 TEST_CASE("Rays that long runs found lost are met", "[once]") {
   struct Lost {
     const char* model;
     dvec3 center, origin, direction;
+    double scale = 1.0;
   };
   const char* const kites = "\"topology\": \"icosahedron_pairs\", \"corner_weights\": \"unit\"";
   for (const Lost& lost :
@@ -223,7 +224,16 @@ TEST_CASE("Rays that long runs found lost are met", "[once]") {
         {"vidunas/figure_4: tetrahedron",
          dvec3(0.0),
          {2.0761739326667832, 0.11375230737981638, -0.61267035818879589},
-         {-1.2064958408327975, -0.10754152096402124, 0.011978566605392298}}}) {
+         {-1.2064958408327975, -0.10754152096402124, 0.011978566605392298}},
+        {"\"middle_weight\": 30",
+         {480.0, -600.0, 640.0},
+         {480.0, -598.506296884726, 638.59843919807668},
+         {0.0, -0.97048903839655654, 0.24114523912390892}},
+        {"\"middle_weight\": 30",
+         dvec3(0.0),
+         {1353048.6443543644, 0.0, -3599797.6218051063},
+         {-0.096326708817278131, 0.0, 0.99534977026592586},
+         1e6}}) {
     const auto& models = closed_models();
     const auto model = std::find_if(models.begin(), models.end(), [&](const ClosedModel& m) {
       return m.name.find(lost.model) != m.name.npos;
@@ -231,8 +241,9 @@ TEST_CASE("Rays that long runs found lost are met", "[once]") {
     REQUIRE(model != models.end());
     for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
       CAPTURE(model->name, static_cast<int>(solver));
-      const bool moved = lost.center != dvec3(0.0);
-      const Tracer tracer({{moved ? placed(*model, 1.0, lost.center).surface : model->surface, solver}});
+      const bool moved = lost.center != dvec3(0.0) || lost.scale != 1.0;
+      const Tracer tracer(
+          {{moved ? placed(*model, lost.scale, lost.center).surface : model->surface, solver}});
       CHECK(tracer.all({lost.origin, lost.direction}).size() == 2);
     }
   }
