@@ -75,7 +75,8 @@ struct Tracer::Implementation {
     if (q.ties > 1 && q.ray->start.surface < 0) {
       Ray near = *q.ray;
       near.t_max = std::min(near.t_max, q.tied_until);
-      return all(near).front();
+      // A search that was given up may have found more the first time.
+      if (const std::vector<Hit> tied = all(near); !tied.empty()) return tied.front();
     }
     if (q.best) finish_hit(q.best);
     return q.best;

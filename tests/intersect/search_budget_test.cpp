@@ -32,8 +32,8 @@ TEST_CASE("Each surface's searches have cells of their own", "[solvers]") {
   CHECK(counts.limit == SearchCounts{}.limit);
 }
 
-// The ray passes singular corners of both, 10^-13 outside, which takes some 31,000 cells each, and meets the
-// wall head-on. When all searches of a ray had 2^15 together, it went through.
+// The ray passes singular corners of all four, 10^-13 outside, which takes some 31,000 cells each, and meets
+// the wall head-on. When all searches of a ray had 2^15 together, it went through.
 TEST_CASE("A ray that passes singular corners meets what is behind", "[hits]") {
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 1.0, glm::normalize(dvec3(1.0, 2.0, 3.0)));
   const Surface hemispheres =

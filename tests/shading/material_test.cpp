@@ -188,7 +188,7 @@ TEST_CASE("Fresnel reflectance has its known values", "[shading]") {
 }
 
 // By less than rounding the law of reflection alone puts the light on either side: of these directions a
-// third.
+// fifth.
 TEST_CASE("light that grazes leaves on the side where it came", "[shading]") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> digits(13.0, 20.0);
