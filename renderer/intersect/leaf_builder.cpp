@@ -220,7 +220,7 @@ class Builder {
   // Whether the control net of the cell last examined is longer along a than along b: where weights are
   // unequal, most of a surface is where its centre tells nothing of.
   bool longer_across_a() const {
-    const auto& [m, n] = shape_;
+    const int m = shape_.m, n = shape_.n;
     const auto at = [&](int i, int j) {
       const dvec4& p = scratch_.points[static_cast<std::size_t>(i * (n + 1) + j)];
       return dvec3(p) / p.w;
