@@ -51,14 +51,19 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
   }
   for (const Hit& hit : hits) {
     std::size_t best = found.size();
+    const auto awaits = [&](std::size_t k) { return !doubtful[k] && told[k] == 0; };
+    const auto is_better = [&](std::size_t k) {
+      if (best == found.size()) return true;
+      // At a glancing seam the neighbour's root, outside its patch by rounding, may be the nearer one.
+      if (awaits(k) != awaits(best)) return awaits(k);
+      return (told[k] == 0 && told[best] > 0) ||
+             std::fabs(found[k].t - hit.t) < std::fabs(found[best].t - hit.t);
+    };
     for (std::size_t k = 0; k < found.size(); ++k) {
       const double off = std::max({found[k].low - hit.t, hit.t - found[k].high, 0.0});
       const double allowed =
           hit.t_error + rounding(hit.t) + (doubtful[k] ? 4.0 * std::sqrt(band * radius) / speed : 0.0);
-      // Its own before a doubtful one that is near.
-      if (off <= allowed && (best == found.size() || (told[k] == 0 && told[best] > 0) ||
-                             std::fabs(found[k].t - hit.t) < std::fabs(found[best].t - hit.t)))
-        best = k;
+      if (off <= allowed && is_better(k)) best = k;
     }
     if (best < found.size()) {
       ++told[best];
