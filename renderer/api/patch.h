@@ -65,4 +65,12 @@ inline std::vector<dvec4>& points_of(Net& net) {
   return std::visit([](auto& n) -> std::vector<dvec4>& { return n.points; }, net);
 }
 
+// Whether both nets are of one kind and of the same degrees.
+inline bool same_degrees(const Net& a, const Net& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* t = std::get_if<TensorNet>(&a))
+    return t->m == std::get<TensorNet>(b).m && t->n == std::get<TensorNet>(b).n;
+  return std::get<TriangleNet>(a).n == std::get<TriangleNet>(b).n;
+}
+
 }  // namespace rondure

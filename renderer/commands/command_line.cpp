@@ -38,15 +38,17 @@ CLI::Validator not_empty(const char* complaint) {
   return CLI::Validator([complaint](const std::string& value) { return value.empty() ? complaint : ""; }, "");
 }
 
-// Larger numbers than 64 bits hold, which CLI11 takes for the largest that they do.
-CLI::Validator fits() {
+// Whole numbers. Of larger ones than 64 bits hold CLI11 takes the largest that they do.
+CLI::Validator is_integer() {
   return CLI::Validator(
-      [](const std::string& value) {
+      [](const std::string& value) -> std::string {
         std::int64_t number;
-        const auto parsed = std::from_chars(value.data(), value.data() + value.size(), number);
-        return parsed.ec == std::errc::result_out_of_range
-                   ? fmt::format("takes a number up to {}, found {}", INT64_MAX, value)
-                   : "";
+        const char* end = value.data() + value.size();
+        const auto [stop, error] = std::from_chars(value.data(), end, number);
+        if (error == std::errc::result_out_of_range)
+          return fmt::format("takes a number up to {}, found {}", INT64_MAX, value);
+        return error == std::errc{} && stop == end ? ""
+                                                   : fmt::format("takes an integer, found \"{}\"", value);
       },
       "");
 }
@@ -84,11 +86,11 @@ void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
   command.add_option("--spp", overrides.spp, "Samples per pixel")
       ->type_name("N")
       ->check(given)
-      ->check(fits());
+      ->check(is_integer());
   command.add_option("--seed", overrides.seed, "Seed of the random numbers")
       ->type_name("N")
       ->check(given)
-      ->check(fits());
+      ->check(is_integer());
   command
       .add_option_function<std::string>(
           "--resolution",
@@ -116,7 +118,8 @@ void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
           "--layers", [&overrides](const std::vector<std::string>& names) { overrides.layers = names; },
           "More layers of the film, with the scene's parameters where it has them; see rondure list")
       ->type_name("NAME,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 void add_render(CLI::App& program, CommandLine& line) {
@@ -129,12 +132,14 @@ void add_render(CLI::App& program, CommandLine& line) {
       ->add_option("-o,--output", options->output,
                    "OpenEXR file (the scene's name in this folder by default)")
       ->check(named);
-  command->add_option("--png", options->png, "Also write an 8-bit sRGB preview")->check(named);
+  CLI::Option* png =
+      command->add_option("--png", options->png, "Also write an 8-bit sRGB preview")->check(named);
   command->add_option("--exposure", options->exposure, "Brighten the preview by this many stops")
-      ->check(given);
+      ->check(given)
+      ->needs(png);
   command
       ->add_option("--threads", options->threads,
-                   "Threads (all processors by default); no effect on the picture")
+                   "Threads (all processors by default, or by 0); no effect on the picture")
       ->check(CLI::Range(0, 4096));
   command
       ->add_option("--crop", options->crop, "x0,y0,x1,y1: render the pixels x0 <= x < x1, y0 <= y < y1 alone")
@@ -149,6 +154,7 @@ void add_trace(CLI::App& program, CommandLine& line) {
       add<TraceCommand>(program, line, "trace", "Intersect rays from a table with a scene", run_trace);
   add_scene_options(*command, options->scene);
   command->add_option("--rays", options->rays, "Table ox,oy,oz,dx,dy,dz[,tmin,tmax]; - for standard input")
+      ->check(not_empty("names no file; - is standard input"))
       ->required();
   add_output(*command, options->output, "Table of hits");
   CLI::Option* all =
@@ -163,9 +169,14 @@ void add_eval(CLI::App& program, CommandLine& line) {
   const auto [command, options] =
       add<EvalCommand>(program, line, "eval", "Evaluate a scene's patches at given parameters", run_eval);
   add_scene_options(*command, options->scene);
-  command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input");
-  command->add_option("--direction", options->directions,
-                      "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input");
+  const CLI::Validator named = not_empty("names no file; - is standard input");
+  CLI::Option* at =
+      command->add_option("--at", options->at, "Table surface,patch,u,v; - for standard input")->check(named);
+  command
+      ->add_option("--direction", options->directions,
+                   "Table surface,dx,dy,dz of directions from the surface's centre; - for standard input")
+      ->check(named)
+      ->excludes(at);
   add_output(*command, options->output, "Table of values");
 }
 
@@ -210,11 +221,15 @@ void add_study(CLI::App& program, CommandLine& line) {
       ->required();
   command
       ->add_option("--families", options->families,
-                   "Families, separated by commas; all of the study's by default")
+                   "Families, separated by commas; all of the study's by default. A name that is none is "
+                   "answered by all that are")
       ->type_name("NAME,...")
-      ->delimiter(',');
-  command->add_option("--scene", options->scene,
-                      "For corner-normals: the objects of a scene instead of families");
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--scene", options->scene,
+                   "For corner-normals: the objects of a scene instead of families")
+      ->check(not_empty("names no file"));
   command->add_option("-o,--output", options->output, "Folder (the study's name in this folder by default)")
       ->check(not_empty("names no folder"));
   command->add_flag("--quick", options->quick, "Fewer places and smaller pictures, within a minute");
@@ -247,9 +262,9 @@ std::vector<std::string> command_names(const CLI::App& program) {
   return names;
 }
 
-std::vector<std::string> option_names(const CLI::App& program, const CLI::App& command) {
+std::vector<std::string> option_names(const std::vector<const CLI::App*>& apps) {
   std::vector<std::string> names;
-  for (const CLI::App* app : {&command, &program}) {
+  for (const CLI::App* app : apps) {
     for (const CLI::Option* option : app->get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
@@ -259,19 +274,33 @@ std::vector<std::string> option_names(const CLI::App& program, const CLI::App& c
   return names;
 }
 
+// Of an option that was not expected where it stands: `here` are those that may, `elsewhere` all others too.
+std::string unexpected_option(const std::string& text, const std::vector<std::string>& here,
+                              const std::vector<std::string>& elsewhere, const std::string& remedy) {
+  const std::string name = text.substr(0, text.find('='));
+  if (std::find(elsewhere.begin(), elsewhere.end(), name) == elsewhere.end())
+    return unknown_name("option", text, here);
+  return fmt::format(
+      "\"{}\" is an option of a command: it stands after the command's name, and before any --{}", name,
+      remedy);
+}
+
 // CLI11's words, but for a name that nobody knows.
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   const std::vector<std::string> extras = program.remaining(true);
   if (chosen.empty()) {
-    if (extras.empty()) return std::string(error.what()) + "; see rondure --help";
+    const char* const remedy = "; see rondure --help";
+    if (extras.empty()) return error.what() + std::string(remedy);
     if (!extras[0].starts_with("-")) return unknown_name("command", extras[0], command_names(program));
-    return unknown_name("option", extras[0], option_names(program, program));
+    std::vector<const CLI::App*> all = program.get_subcommands([](const CLI::App*) { return true; });
+    return unexpected_option(extras[0], option_names({&program}), option_names(all), remedy);
   }
   const std::string remedy = fmt::format("; see rondure {} --help", chosen[0]->get_name());
   if (extras.empty()) return error.what() + remedy;
   if (!extras[0].starts_with("-")) return fmt::format("unexpected argument \"{}\"{}", extras[0], remedy);
-  return unknown_name("option", extras[0], option_names(program, *chosen[0]));
+  const std::vector<std::string> names = option_names({chosen[0], &program});
+  return unexpected_option(extras[0], names, names, remedy);
 }
 
 }  // namespace

@@ -42,11 +42,8 @@ void write_ellipsoid(TextOutput& output, const dmat3& map, const dvec3& origin) 
   output.write("[0, 0, 0, 1]] }");
 }
 
-void write_object(TextOutput& output, const Scene& scene, const SceneObject& object,
-                  const std::string& form) {
+void write_object(TextOutput& output, const SceneObject& object, const std::string& form) {
   const Surface& surface = object.traced.surface;
-  output.write(fmt::format("    {{ \"name\": {}, ", nlohmann::json(object.name).dump()));
-  if (form == "preimage") return output.write(preimage_members(scene, object));
   if (surface.ellipsoid) return write_ellipsoid(output, *surface.ellipsoid, surface.origin);
   output.write(fmt::format("\"type\": \"bezier\", \"closed\": {}, \"center\": {}, \"patches\": [",
                            surface.closed, text_of(surface.origin)));
@@ -68,12 +65,20 @@ void run_export(const Registry& registry, const ExportCommand& options) {
     throw std::runtime_error("--form: " + unknown_name("form", options.form, forms));
   const Scene scene = read_scene(options.scene.path, registry, options.scene.overrides);
   refuse_table_over_input(scene, "-", options.output);
+  // Those that have none are told before anything is written.
+  std::vector<std::string> preimages;
+  if (options.form == "preimage")
+    for (const SceneObject& object : scene.objects) preimages.push_back(preimage_members(scene, object));
   TextOutput output(options.output);
   output.write("{\n  \"objects\": [");
   const char* separator = "\n";
-  for (const SceneObject& object : scene.objects) {
-    output.write(separator);
-    write_object(output, scene, object, options.form);
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    const SceneObject& object = scene.objects[k];
+    output.write(fmt::format("{}    {{ \"name\": {}, ", separator, nlohmann::json(object.name).dump()));
+    if (preimages.empty())
+      write_object(output, object, options.form);
+    else
+      output.write(preimages[k]);
     separator = ",\n";
   }
   output.write("\n  ]\n}\n");

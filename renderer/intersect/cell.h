@@ -88,7 +88,6 @@ struct TensorShape {
   // How far (a, b) lies outside the cell; at most 0 inside.
   static double outside(dvec2 p) { return std::max({-p.x, p.x - 1.0, -p.y, p.y - 1.0}); }
   static dvec2 to_patch(const Cell& c, dvec2 p) { return c.low + p * (c.high - c.low); }
-  static dvec2 from_patch(const Cell& c, dvec2 p) { return (p - c.low) / (c.high - c.low); }
   // The nearest point of the domain, and along which direction one may move there: 0 at a corner.
   static dvec2 clamp(dvec2 p) { return dvec2(std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)); }
   static dvec2 boundary_direction(dvec2 p) {
@@ -174,11 +173,6 @@ struct TriangleShape {
   static double outside(dvec2 p) { return std::max({-p.x, -p.y, p.x + p.y - 1.0}); }
   static dvec2 to_patch(const Cell& c, dvec2 p) {
     return c.corner[2] + p.x * (c.corner[0] - c.corner[2]) + p.y * (c.corner[1] - c.corner[2]);
-  }
-  static dvec2 from_patch(const Cell& c, dvec2 p) {
-    const dvec2 e = c.corner[0] - c.corner[2], g = c.corner[1] - c.corner[2], r = p - c.corner[2];
-    const double det = e.x * g.y - e.y * g.x;
-    return dvec2(r.x * g.y - r.y * g.x, e.x * r.y - e.y * r.x) / det;
   }
   static dvec2 clamp(dvec2 p) {
     p = dvec2(std::max(p.x, 0.0), std::max(p.y, 0.0));

@@ -139,10 +139,9 @@ struct CertifiedPiece {
   // Value by de Casteljau's algorithm, at a place inside: three roundings a level, degree(0) + degree(1)
   // levels at most.
   RayPoint<T> value(dvec2 p) const {
-    RayPoint<T> work[triangle_size(max_degree) > (max_degree + 1) * (max_degree + 1)
-                         ? triangle_size(max_degree)
-                         : (max_degree + 1) * (max_degree + 1)];
-    std::copy(c.begin(), c.end(), work);
+    static thread_local std::vector<RayPoint<T>> levels;  // kept so that nothing is allocated
+    levels = c;
+    RayPoint<T>* const work = levels.data();
     const T a = p.x, b = p.y;
     if (shape.triangle) {
       const T rest = 1 - a - b;

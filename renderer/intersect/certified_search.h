@@ -1,6 +1,6 @@
 // Proofs about a ray and one patch: that a root exists, and that none comes earlier.
 //
-// With Y an approximate inverse of the Jacobian of F = (f, g) at a piece's middle and rho >= |1 - Y J| all
+// With Y an approximate inverse of the mean Jacobian of F = (f, g) on a piece and rho >= |1 - Y J| all
 // over the piece (row sums, from the Bernstein coefficients of J), every root r in the piece and every p of
 // it have |p - r| <= |Y F(p)| / (1 - rho). So there is one root at most, and it is within that ball about p;
 // and if the ball lies in the piece, there is one: p - Y F maps the ball into itself (Krawczyk 1969).
@@ -23,9 +23,7 @@ struct Ball {
   double radius = 0.0;
 };
 
-enum class Contraction { none, contracts, empty };
-
-// Bounds of |component . derivative by a| + |... by b| all over the piece.
+// Bounds, component by component, of |derivative by a| + |derivative by b| all over the piece.
 template <class T>
 RayPoint<T> slope_of(const CertifiedPiece<T>& piece) {
   RayPoint<T> out;
@@ -43,7 +41,7 @@ template <class T>
 class Preconditioned {
  public:
   explicit Preconditioned(const CertifiedPiece<T>& piece) : piece_(piece) {
-    // Any Y will do; this one is from the corners' differences and the middle's.
+    // Any Y will do; this one is from the means of the derivatives' coefficients.
     RayPoint<T> mean[2];
     for (int k = 0; k < 2; ++k) {
       int count = 0;

@@ -12,7 +12,7 @@ struct Ellipsoid {
   dmat3 linear{1.0};  // unit sphere to surface, about the frame's zero
   dmat3 inverse{1.0};
   dmat3 turn{1.0};              // of the unit sphere before that: of its parameters only
-  double extent = 1.0;          // largest semi-axis
+  double extent = 1.0;          // bounds the largest semi-axis, as the root of the sum of their squares
   double uniform_radius = 0.0;  // the radius when `linear` is a scaled rotation, else 0
 
   explicit Ellipsoid(const dmat3& map);  // not too flat

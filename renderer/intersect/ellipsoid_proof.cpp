@@ -127,7 +127,8 @@ double defect_of(const Net& net, const EllipsoidMap& map) {
     }
     for (int j = 0; j < size; ++j) {
       const double off = std::fabs(product.exact[j] + product.rest[j]) / product.square[j];
-      if (!(off <= most_off)) most_off = off;
+      if (!(off < INFINITY)) return INFINITY;
+      most_off = std::fmax(most_off, off);
     }
   }
   return most_off + unknown;

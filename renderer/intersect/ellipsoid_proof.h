@@ -20,7 +20,8 @@ struct EllipsoidMap {
 inline constexpr int largest_proven_degree = 8;
 
 // Bound on |x|^2 / w^2 - 1 over the patch, of the net's image in the unit sphere's space. Of degrees up to
-// the largest proven one, with positive weights. Infinite where those differ by a factor of some thousands.
+// the largest proven one, with positive weights. Infinite where one is less than 2^-18 of the
+// greatest coordinate or weight, binomial factors included.
 double defect_of(const Net& net, const EllipsoidMap& map);
 
 // Whether some of the net's control points that are points of the patch, its corners, are near: what is far

@@ -56,7 +56,7 @@ float down(double x) {
 }
 float up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
-void bounds_of_leaf(const RTCBoundsFunctionArguments* args) {
+void bounds_of_leaf(const RTCBoundsFunctionArguments* args) noexcept {
   auto& data = *static_cast<GeometryData*>(args->geometryUserPtr);
   data.there.take();
   const Box& box = (*data.boxes)[args->primID];
@@ -117,7 +117,7 @@ struct Memory {
   std::atomic<std::ptrdiff_t> bytes{0};
 };
 
-bool count_memory(void* total, ssize_t bytes, bool) {
+bool count_memory(void* total, ssize_t bytes, bool) noexcept {
   auto& memory = *static_cast<Memory*>(total);
   memory.there.take();
   memory.bytes.fetch_add(bytes, std::memory_order_relaxed);
@@ -129,7 +129,7 @@ bool count_memory(void* total, ssize_t bytes, bool) {
 
 float round_far(double t) {
   if (!(t < 1e30)) return std::numeric_limits<float>::infinity();
-  // Rounded to nearest, which is half of this margin at most.
+  // Rounding to nearest takes a 32nd of this margin at most.
   return static_cast<float>(std::max(t, 0.0) * (1.0 + 0x1p-19)) + 0x1p-100f;
 }
 

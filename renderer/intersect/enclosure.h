@@ -27,7 +27,6 @@ struct Enclosure {
   }
 
   T magnitude() const { return std::max(-low, high); }
-  bool contains(T x) const { return low <= x && x <= high; }
 
   friend Enclosure operator+(Enclosure a, Enclosure b) { return outward(a.low + b.low, a.high + b.high); }
   friend Enclosure operator-(Enclosure a, Enclosure b) { return outward(a.low - b.high, a.high - b.low); }

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "renderer/bezier/dispatch.h"
-#include "renderer/intersect/newton.h"
 
 namespace rondure {
 namespace {

@@ -93,7 +93,8 @@ class Builder {
   struct Piece {
     Leaf leaf;
     SecondOrder<dvec4> center;
-    bool positive = false, equal = true, tame = false;  // the weights, twice, and the leaf
+    bool positive = false, equal = true;  // the weights
+    bool tame = false;                    // Newton's method decides nearly all rays
     Evenness evenness;
   };
 
@@ -150,7 +151,7 @@ class Builder {
     typename Shape::Cell low, high;
     int edge;
     if constexpr (std::is_same_v<Shape, TensorShape>)
-      edge = (piece.positive && !piece.equal ? longer_across_a() : longer_across_a(piece.center, piece.leaf))
+      edge = (piece.positive && !piece.equal ? longer_along_a() : longer_along_a(piece.center, piece.leaf))
                  ? 0
                  : 1;
     else
@@ -176,7 +177,7 @@ class Builder {
       typename Shape::Cell low, high;
       int edge;
       if constexpr (std::is_same_v<Shape, TensorShape>)
-        edge = less_equal_along_a() ? 0 : 1;
+        edge = more_unequal_along_a() ? 0 : 1;
       else
         edge = Shape::longest_edge(cell);
       Shape::halve(cell, edge, low, high);
@@ -200,7 +201,7 @@ class Builder {
   }
 
   // Whether weights of the cell last examined differ more along a than along b.
-  bool less_equal_along_a() const {
+  bool more_unequal_along_a() const {
     const auto& [m, n] = shape_;
     const int stride = n + 1;
     const auto spread = [&](int lines, int across, int along, int step) {
@@ -219,7 +220,7 @@ class Builder {
 
   // Whether the control net of the cell last examined is longer along a than along b: where weights are
   // unequal, most of a surface is where its centre tells nothing of.
-  bool longer_across_a() const {
+  bool longer_along_a() const {
     const int m = shape_.m, n = shape_.n;
     const auto at = [&](int i, int j) {
       const dvec4& p = scratch_.points[static_cast<std::size_t>(i * (n + 1) + j)];
@@ -235,7 +236,7 @@ class Builder {
   }
 
   // Whether the surface is longer along a than along b.
-  static bool longer_across_a(const SecondOrder<dvec4>& s, const Leaf& leaf) {
+  static bool longer_along_a(const SecondOrder<dvec4>& s, const Leaf& leaf) {
     const dvec3 x = s.value.w != 0.0 ? dvec3(s.value) / s.value.w : dvec3(0.0);
     return leaf.edge_a.x * glm::length(dvec3(s.du) - x * s.du.w) >=
            leaf.edge_b.y * glm::length(dvec3(s.dv) - x * s.dv.w);

@@ -108,9 +108,8 @@ Evenness set_frame(const Shape& shape, const LeafArithmetic<Shape>& arithmetic,
   frame.bound_bend = unbounded;
   // Where rounding of the frame is nothing beside the leaf.
   if (most.w < 0.5 && error * std::max({rows[0], rows[1], rows[2]}) < 1e-10) {
-    // w^2 (zeta - bend (xi^2, ..)) = N_zeta w - bend (N_xi^2, ..) = (N_zeta - bend (a^2, ..)) + N_zeta (w -
-    // 1)
-    // - bend (N_xi^2 - a^2, ..), each of the third order.
+    // w^2 (zeta - bend (xi^2, ..)) = N_zeta w - bend (N_xi^2, ..), which is
+    // (N_zeta - bend (a^2, ..)) + N_zeta (w - 1) - bend (N_xi^2 - a^2, ..), each of the third order.
     const double half = Shape::half_width(), x = most.x, y = most.y;
     const dvec3 squares(x * (2.0 * half + x), half * (x + y) + x * y, y * (2.0 * half + y));
     const double higher =

@@ -1,6 +1,8 @@
 // A leaf's own frame, and the bounds that hold in it.
 #pragma once
 
+#include <limits>
+
 #include "renderer/intersect/leaf_arithmetic.h"
 
 namespace rondure {

@@ -7,7 +7,6 @@
 
 #include "renderer/bezier/dispatch.h"
 #include "renderer/bezier/regular_normal.h"
-#include "renderer/intersect/contact.h"
 #include "renderer/intersect/settle.h"
 
 // What remains: SSE4, AVX2 and AVX-512, and plain code for all else.

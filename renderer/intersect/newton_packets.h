@@ -32,7 +32,7 @@ enum class PacketAnswer : unsigned char { unknown, prepared, done };
 
 // Hits of up to `most_in_packet` rays, of those whose answer is `done`. The others are still to be found: of
 // all rays where they go apart, and of such as graze a leaf, start on a surface or are otherwise out of the
-// ordinary. Of all of these but the last, `prepared` is set.
+// ordinary. Where the answer is `prepared`, so is what is needed to meet them alone.
 void closest_in_packet(const PacketTarget& target, const Ray* rays, std::size_t count, Hit* hits,
                        PreparedRay* prepared, PacketAnswer* answers) noexcept;
 

@@ -1,9 +1,7 @@
 #include "renderer/intersect/query.h"
 
 #include <algorithm>
-#include <glm/matrix.hpp>
 
-#include "renderer/bezier/normal.h"
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/hit_order.h"
@@ -19,7 +17,7 @@ namespace {
 thread_local SearchBudget search_budget;  // of the thread's query
 
 // Whether the crossing is a hit, in the query's ray (`local` in some frame), of `surface`; `t` receives its
-// place. `normal()`: there, outward, of length one.
+// place. `normal()`: the one that the hit will have.
 template <class Normal>
 bool is_hit(const Query& q, unsigned surface, const LocalRay& local, const Crossing& c, const Normal& normal,
             double& t) {
@@ -133,17 +131,18 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
     c.sign = c.likely = sphere.outward < 0.0 ? -leaving : leaving;
     Hit hit;
     std::optional<PlaceOnSphere> place;
-    // Which way the ray crosses has to be known where it starts on the surface.
-    if (sphere.outward == 0.0 && q.ray->start.surface == static_cast<int>(surface)) {
+    // Which way the patch faces has to be known where the ray starts on the surface, or its path has met it.
+    const RayStart& start = q.ray->start;
+    if (sphere.outward == 0.0 && (start.surface == static_cast<int>(surface) || start.passed)) {
       place = place_on_sphere(sphere, nets, at, reach);
       if (!place) continue;
       c.sign = place->outward < 0.0 ? -leaving : leaving;
     }
-    const auto outward = [&] {
+    const auto normal = [&] {
       const dvec3 unit = sphere.inverse_radius > 0.0 ? n : glm::normalize(n * e.inverse);
-      return sphere.outward < 0.0 ? -unit : unit;
+      return (place ? place->outward : sphere.outward) < 0.0 ? -unit : unit;
     };
-    if (!is_hit(q, surface, local, c, outward, hit.t)) continue;
+    if (!is_hit(q, surface, local, c, normal, hit.t)) continue;
     if (q.mode == Mode::any) {
       if (place || covers(sphere, nets, at, reach)) return true;
       continue;
@@ -155,8 +154,7 @@ bool visit_sphere(Query& q, unsigned surface, const PatchedSphere& sphere, float
     hit.surface = static_cast<int>(surface), hit.patch = place->patch;
     hit.u = place->u, hit.v = place->v;
     hit.point = frame + (sphere.center + (sphere.inverse_radius > 0.0 ? e.uniform_radius * n : e.linear * n));
-    hit.normal = sphere.inverse_radius > 0.0 ? n : glm::normalize(n * e.inverse);
-    if (place->outward < 0.0) hit.normal = -hit.normal;
+    hit.normal = normal();
     c.sign = place->outward < 0.0 ? -leaving : leaving;
     if (q.mode == Mode::all) {
       q.hits->push_back(hit);

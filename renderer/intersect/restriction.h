@@ -45,8 +45,8 @@ class Restriction<TensorShape> {
     int degree = -1;
     double from = 0.0, to = 0.0;
     std::vector<double> weights;      // row k: of the old coefficients in the new coefficient k
-    std::uint64_t known[2] = {0, 0};  // the patch whose
-    std::vector<dvec4> rows[2];       // net and magnitudes these are, over the interval of u
+    std::vector<dvec4> rows[2];       // a patch's net and its magnitudes, cut at the ends along u
+    std::uint64_t known[2] = {0, 0};  // of which patch they are
   };
   std::array<Interval, 256> known_[2];
   TensorShape shape_{-1, -1};

@@ -100,7 +100,7 @@ dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
     // The last trial is the correction alone.
     for (double part = std::fmin(1.0, quotient(0.5, length)); !better; part *= 0.25) {
       if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
-      const dvec2 q = correct_strong<Shape>(net, ray, Shape::clamp(p - part * full));
+      const dvec2 q = correct_strong<Shape>(net, ray, part == 0.0 ? p : Shape::clamp(p - part * full));
       const dvec2 next = extended_residual(net, ray, q);
       better = glm::dot(next, next) < glm::dot(f, f);
       if (better) p = q, f = next;

@@ -5,7 +5,7 @@
 // question: does a point of the patch itself lie on the ray, to within the rounding of its control points? A
 // root outside is brought to the boundary and slid along it to where the residual is least; the residual is
 // summed in extended precision, so that what is left is the rounding of the net (1 roundoff, and 1 more for
-// the neighbour's) and of the parameters (at most 1, as |S_u| <= degree * scale only in passing). Both
+// the neighbour's); half an ulp of each parameter comes on top, by the derivatives there. Both
 // patches at a seam see the same pair of planes and answer the same question about the same curve: no ray
 // passes between them.
 #pragma once

@@ -1,6 +1,8 @@
 // Rays whose direction is so short that t, counted in it, nears the end of the doubles: met in longer steps.
 #pragma once
 
+#include <cmath>
+
 #include "renderer/intersect/local_ray.h"
 
 namespace rondure {

@@ -115,15 +115,4 @@ void search_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, std::vec
   settle_all(leaf, net, ray, candidates, roots);
 }
 
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
-                std::vector<Root>& roots, SolverCounts& counts) noexcept {
-  if (solver != Solver::clipping) {
-    NewtonRoot found;
-    const NewtonVerdict verdict = solve_by_newton(leaf, net, newton_patch(net), ray, found, counts);
-    if (verdict == NewtonVerdict::root) roots.push_back(found.root);
-    if (verdict != NewtonVerdict::undecided) return;
-  }
-  search_leaf(leaf, net, ray, roots, counts);
-}
-
 }  // namespace rondure

@@ -1,4 +1,4 @@
-// One leaf, one ray, by the solver that the scene chose.
+// One leaf, one ray: by Newton's method, and by `clipping` where that cannot decide.
 #pragma once
 
 #include "renderer/intersect/clipping.h"
@@ -23,9 +23,5 @@ NewtonVerdict solve_by_newton(const Leaf& leaf, const Net& net, const NewtonPatc
 // Adds the roots of the ray on the leaf that `clipping` finds, settled, in no order.
 void search_leaf(const Leaf& leaf, const Net& net, const LocalRay& ray, std::vector<Root>& roots,
                  SolverCounts& counts) noexcept;
-
-// Either: `newton` hands leaves that it cannot decide to `clipping`.
-void solve_leaf(Solver solver, const Leaf& leaf, const Net& net, const LocalRay& ray,
-                std::vector<Root>& roots, SolverCounts& counts) noexcept;
 
 }  // namespace rondure

@@ -14,7 +14,7 @@ namespace rondure {
 namespace {
 
 constexpr double margin = 1e-6;       // around sides: far beyond rounding, far within a cell
-constexpr double worst_start = 4e-3;  // error of a cell's cubic; two or three steps then suffice
+constexpr double worst_start = 4e-3;  // error of a cell's cubic; two steps then suffice
 
 struct Touch {
   std::int32_t patch;

@@ -1,5 +1,5 @@
-// Closest hits of many rays with a sphere of patches, a ray a lane, by the widest instruction set of the
-// machine.
+// Closest hits of many rays with a sphere of patches that is all there is, a ray a lane, by the widest
+// instruction set of the machine.
 //
 // Whatever an ordinary ray needs is done here; a lane that needs more (a point at a seam, a start on this
 // surface, an ellipsoid that is no sphere, a ray that grazes or of extreme length) is handed back. One lane

@@ -39,13 +39,6 @@ Net in_frame(const Net& net, const SpherePatch& patch) {
   return out;
 }
 
-bool same_degrees(const Net& a, const Net& b) {
-  if (a.index() != b.index()) return false;
-  const auto *p = std::get_if<TensorNet>(&a), *q = std::get_if<TensorNet>(&b);
-  if (p) return p->m == q->m && p->n == q->n;
-  return std::get<TriangleNet>(a).n == std::get<TriangleNet>(b).n;
-}
-
 // What patch k of a sphere's is, in its frame.
 const std::vector<dvec4>& known_of(const SpherePatches& patches, const std::vector<Net>& known,
                                    std::size_t k) {

@@ -16,7 +16,6 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/bezier/quotient.h"
 #include "renderer/intersect/root.h"
 
 namespace rondure {

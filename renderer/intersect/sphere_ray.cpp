@@ -7,7 +7,6 @@
 #include <hwy/highway.h>
 
 #include "renderer/intersect/contact.h"
-#include "renderer/intersect/ellipsoid_fit.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rondure {

@@ -11,7 +11,6 @@ class Triple {
  public:
   explicit HWY_INLINE Triple(V v) : v_(v) {}
   explicit HWY_INLINE Triple(double x) : v_(hn::Set(D(), x)) {}
-  explicit HWY_INLINE Triple(const dvec3& x) : v_(hn::MaskedLoad(hn::FirstN(D(), 3), D(), &x.x)) {}
   // From four numbers, of which the last is not used.
   static HWY_INLINE Triple of_four(const double* x) { return Triple(hn::LoadU(D(), x)); }
 

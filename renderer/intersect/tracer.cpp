@@ -1,11 +1,9 @@
 #include "renderer/intersect/tracer.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <optional>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -318,6 +316,7 @@ TracerStatistics Tracer::statistics() const {
   TracerStatistics s;
   s.surfaces = self.surfaces.size();
   s.leaves = self.leaf_count;
+  s.bytes = self.placed.size() * sizeof(PlacedSurface);
   for (std::size_t k = 0; k < self.surfaces.size(); ++k) {
     s.patches += self.surfaces[k].surface.patches.size();
     for (const Net& net : self.surfaces[k].surface.patches)
@@ -333,6 +332,8 @@ TracerStatistics Tracer::statistics() const {
       s.bytes += sizeof(sphere) + sphere.names.size() * sizeof(sphere.names[0]);
       if (shared.insert(sphere.patches.get()).second) s.bytes += sphere.patches->bytes();
     }
+    for (const RadialPiece& piece : compiled.radial)
+      s.bytes += sizeof(piece) + piece.weights.size() * sizeof(piece.weights[0]);
     if (compiled.analytic) s.bytes += sizeof(PatchedSphere);
     if (compiled.hierarchy) s.bytes += compiled.hierarchy->bytes();
   }

@@ -23,7 +23,8 @@ struct TracedSurface {
 };
 
 struct TracerStatistics {
-  std::size_t surfaces = 0, patches = 0, leaves = 0;
+  std::size_t surfaces = 0, patches = 0;
+  std::size_t leaves = 0;     // surfaces that share them count once; a sphere met in closed form has one
   std::size_t clustered = 0;  // of the leaves, those that are met surface by surface
   std::size_t bytes = 0;      // nets, leaves and the acceleration structure
 };
@@ -37,7 +38,7 @@ struct SurfaceError : std::runtime_error {
   std::string reason;  // without the index
 };
 
-// Immutable once built; every query is const, thread-safe and noexcept.
+// Immutable once built; every query is const and thread-safe, and noexcept but for `all`, which allocates.
 class Tracer {
  public:
   // Throws SurfaceError when a net cannot be bounded (non-finite, or weights that change sign after
@@ -52,7 +53,8 @@ class Tracer {
   // The same for many rays at once, hit k of ray k; the same bits, too. Both spans have one length.
   void closest(std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
   void occluded(std::span<const Ray> rays, std::span<bool> occluded) const noexcept;
-  // Every hit in order of t; a point on the seam of two patches of one surface is reported once.
+  // Every hit in order of t, ties by which wall is first (hit_order.h); a point on the seam of two patches of
+  // one surface is reported once.
   std::vector<Hit> all(const Ray& ray) const;
 
   const std::vector<TracedSurface>& surfaces() const;

@@ -18,13 +18,6 @@ std::string_view bytes_of(const Net& net) {
   return bytes_of(points.data(), points.size() * sizeof(dvec4));
 }
 
-bool same_degrees(const Net& a, const Net& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* t = std::get_if<TensorNet>(&a))
-    return t->m == std::get<TensorNet>(b).m && t->n == std::get<TensorNet>(b).n;
-  return std::get<TriangleNet>(a).n == std::get<TriangleNet>(b).n;
-}
-
 bool same(const TracedSurface& a, const TracedSurface& b) {
   const Surface &s = a.surface, &t = b.surface;
   if (a.solver != b.solver || s.closed != t.closed || s.patches.size() != t.patches.size() ||

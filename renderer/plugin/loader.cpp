@@ -1,6 +1,7 @@
 #include "renderer/plugin/loader.h"
 
 #include <dlfcn.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -137,7 +138,11 @@ void load_plugins(const std::vector<std::string>& paths, Registry& registry) {
     std::istringstream stream{std::string(variable)};
     for (std::string path; std::getline(stream, path, ':');)
       if (!path.empty()) place.push_back(path);
-    load_place(place);
+    try {
+      load_place(place);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{} (named in RONDURE_PLUGIN_PATH)", error.what()));
+    }
   }
   const std::string installed = installed_plugin_folder();
   if (!installed.empty() && fs::is_directory(installed)) load_place({installed});

@@ -38,7 +38,28 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{"validate"}, "scene is required; see rondure validate --help"},
       {{"validate", "a", "b"}, "unexpected argument \"b\"; see rondure validate --help"},
       {{"validate", "a", "--solvr", "newton"}, "unknown option \"--solvr\"; did you mean \"--solver\"?"},
-      {{"render", "a", "--spp", "many"}, "Could not convert: --spp = many; see rondure render --help"},
+      {{"render", "a", "--spp", "many"},
+       "--spp: takes an integer, found \"many\"; see rondure render --help"},
+      {{"render", "a", "--spp", "1e3"}, "--spp: takes an integer, found \"1e3\"; see rondure render --help"},
+      {{"--spp", "1"},
+       "\"--spp\" is an option of a command: it stands after the command's name, and before any --; see "
+       "rondure --help"},
+      {{"--spp", "1", "render", "a"},
+       "\"--spp\" is an option of a command: it stands after the command's name, and before any --; see "
+       "rondure render --help"},
+      {{"--quiet", "render", "a"},
+       "\"--quiet\" is an option of a command: it stands after the command's name, and before any --; see "
+       "rondure render --help"},
+      {{"render", "a", "--", "--spp=2"},
+       "\"--spp\" is an option of a command: it stands after the command's name, and before any --; see "
+       "rondure render --help"},
+      {{"render", "a", "--exposure", "3"}, "--exposure requires --png; see rondure render --help"},
+      {{"render", "--layers", "nonesuch", "scene.json"},
+       "scene.json: layers[0]: unknown layer \"nonesuch\"; known: \"certificate\", \"curvature\", "
+       "\"highlight_lines\", \"isophotes\", \"jacobian\", \"normal_error\", \"reflection_lines\", "
+       "\"residual\", \"work\" (set on the command line)"},
+      {{"study", "corner-normals", "--scene", ""}, "--scene: names no file; see rondure study --help"},
+      {{"trace", "a", "--rays", ""}, "--rays: names no file; - is standard input; see rondure trace --help"},
       {{"render", "a", "--spp", ""}, "--spp: has no value; see rondure render --help"},
       {{"render", "a", "--seed", "18446744073709551616"},
        "--seed: takes a number up to 9223372036854775807, found 18446744073709551616; see rondure render "
@@ -62,7 +83,12 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
       {{"trace", "scene.json"}, "--rays is required; see rondure trace --help"},
       {{"eval", "scene.json"}, "one of --at and --direction is required; see rondure eval --help"},
       {{"eval", "scene.json", "--at", "-", "--direction", "-"},
-       "one of --at and --direction is required; see rondure eval --help"},
+       "--at excludes --direction; see rondure eval --help"},
+      {{"eval", "scene.json", "--at", ""},
+       "--at: names no file; - is standard input; see rondure eval --help"},
+      {{"export", "scene.json", "-o", "/dev/stdout"},
+       "/dev/stdout: cannot write: it is a stream that is open already; - is standard output, where that can "
+       "be written to"},
       {{"render", "scene.json", "--resolution", "4"},
        "--resolution: takes WIDTHxHEIGHT, such as 640x480, found \"4\"; see rondure render --help"},
       {{"render", "scene.json", "--crop", "1,2,3"}, "--crop wants x0,y0,x1,y1, four integers, not \"1,2,3\""},

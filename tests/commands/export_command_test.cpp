@@ -104,7 +104,9 @@ TEST_CASE("what has no preimage is refused, base points are named", "[command][e
     INFO(objects << "\n" << result.err);
     CHECK(result.exit_code == 1);
     CHECK(result.err.find(part) != std::string::npos);
+    CHECK(result.out.empty());
   };
+  refused("preimage_second", R"({ "type": "sphere_tiling" }, { "type": "sphere" })", "is analytic");
   refused("preimage_iss", R"({ "type": "iss", "octants": { "degree": 3, "interior": 1 } })",
           "does not lie on a sphere");
   refused("preimage_analytic", R"({ "type": "sphere" })", "is analytic");

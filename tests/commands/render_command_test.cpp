@@ -163,8 +163,8 @@ TEST_CASE("render's errors name the cause and leave nothing", "[commands]") {
           std::string("rondure: error: --crop wants x0,y0,x1,y1, four integers, not \"") + crop + "\"\n");
   }
   for (const char* stops : {"nan", "inf", "101", "-1e9"}) {
-    CHECK(error_of({std::string("--exposure=") + stops}).find("--exposure must be in [-100, 100], not ") !=
-          std::string::npos);
+    CHECK(error_of({"--png", "a.png", std::string("--exposure=") + stops})
+              .find("--exposure must be in [-100, 100], not ") != std::string::npos);
   }
   CHECK(error_of({"--crop", "0,0,50,20"}) ==
         "rondure: error: the crop 0,0,50,20 must be a window of 0,0,40,30: x0,y0 "

@@ -229,6 +229,28 @@ TEST_CASE("A hit at a glancing seam is the inner patch's", "[once]") {
   }
 }
 
+// (d) of the figure turns inside out behind this vertex, so that a ray which leaves there meets one wall more;
+// and the oracle has the vertex outside of all four patches, by 10^-62.
+TEST_CASE("A ray that starts at a vertex starts on a wall", "[once]") {
+  const auto& models = closed_models();
+  const auto model = std::find_if(models.begin(), models.end(), [](const ClosedModel& m) {
+    return m.name.find("figure_3: d") != m.name.npos;
+  });
+  REQUIRE(model != models.end());
+  const Ray ray{{1.8115771062699759, 0.60216342259173083, -0.30000000000000004},
+                {-0.36526349340679554, -0.88014713692854718, 0.30318904620837656}};
+  Ray leaving = ray;
+  leaving.start = {0, {-0.66446302438867422, -0.24184476264797539, -0.70710678118654791}};
+  for (const Solver solver : {Solver::newton, Solver::clipping}) {
+    const std::vector<Hit> hits = Tracer({{model->surface, solver}}).all(leaving);
+    const Verdict v = judge(model->surface, ray, hits, model->radius, model->band * model->radius, 1e-14);
+    INFO(v.text << v.seen);
+    CHECK(hits.size() == 1);
+    CHECK(v.right);
+    CHECK(v.in_band);
+  }
+}
+
 // One in 10^7 and rarer: in the plane of an edge, both roots rounded out of it; inside a corner, where
 // grazing moves a root by more than it is inside; from where Newton's method along a fold began too far
 // outside; in the plane of an edge, where both roots ended in one sliver along it.

@@ -57,7 +57,10 @@ std::vector<double> brute_force(const std::vector<TracedSurface>& surfaces, cons
       const Net& net = surfaces[k].surface.patches[static_cast<std::size_t>(leaf.patch)];
       std::vector<Root> roots;
       SolverCounts counts;
-      solve_leaf(Solver::newton, leaf, net, local, roots, counts);
+      NewtonRoot one;
+      const NewtonVerdict verdict = solve_by_newton(leaf, net, newton_patch(net), local, one, counts);
+      if (verdict == NewtonVerdict::root) roots.push_back(one.root);
+      if (verdict == NewtonVerdict::undecided) search_leaf(leaf, net, local, roots, counts);
       for (const Root& root : roots) {
         const dvec3 point = net_point(net, root.u, root.v);
         const double t =

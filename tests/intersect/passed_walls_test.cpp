@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "renderer/bezier/transform.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
 #include "tests/intersect/boxes.h"
 #include "tests/intersect/random_direction.h"
+#include "tests/surfaces/build_family.h"
 
 using namespace rondure;
 
@@ -134,4 +136,38 @@ TEST_CASE("The two sides of a thin body are two walls", "[hits]") {
     CHECK(wrong == 0);
     CHECK(hits > paths);
   }
+}
+
+// Of an open surface some patches may face inward. On which side of such a wall a path is, goes by the normal
+// that its hits have, not by the sphere's.
+TEST_CASE("A wall of a sphere that faces inward is known again", "[hits]") {
+  std::mt19937_64 random(79);
+  Surface globe = build_family(R"({"type": "sphere_tiling", "topology": "cube"})");
+  globe.closed = false;
+  for (std::size_t k = 0; k < globe.patches.size(); k += 2) globe.patches[k] = reversed(globe.patches[k]);
+  const Surface other = box({2.0, 2.0, 2.0}, {3.0, 3.0, 3.0}, dmat3(1.0));
+  const Tracer tracer({{globe, Solver::quadric}, {other, Solver::newton}});
+  long inward = 0, ahead = 0, wrong = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const dvec3 way = random_direction(random);
+    const Hit wall = tracer.closest({3.0 * way, -way});
+    REQUIRE(wall.surface == 0);
+    inward += glm::dot(wall.normal, way) < 0.0;
+    // The path came from this wall to one of the other surface, in the same place, and turns there.
+    const dvec3 came = random_direction(random), goes = random_direction(random);
+    if (std::fabs(glm::dot(came, way)) < 0.01 || std::fabs(glm::dot(goes, way)) < 0.01) continue;
+    Hit here = wall;
+    here.surface = 1, here.normal = random_direction(random), here.t = 0.0;
+    PassedWalls passed;
+    passed.arrive({wall.point, came, 0.0, INFINITY, {0, wall.normal}}, here);
+    const bool is_ahead = glm::dot(came, way) * glm::dot(goes, way) < 0.0;
+    const Hit next = tracer.closest({wall.point, goes, 0.0, INFINITY, {1, here.normal, &passed}});
+    const bool met = next.surface == 0 && next.t < 1e-9;
+    ahead += is_ahead, wrong += met != is_ahead;
+  }
+  INFO(inward << " walls face inward; of " << ahead << " ahead and the others behind, " << wrong
+              << " are taken wrongly");
+  CHECK(inward > 800);
+  CHECK(ahead > 800);
+  CHECK(wrong == 0);
 }

@@ -46,7 +46,7 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
     const bool beside = c.outside > 0.0;  // within rounding of patches, and in none
     const bool start = std::fabs(c.t - ray.t_min) <= doubt || std::fabs(c.t - ray.t_max) <= doubt;
     doubtful[k] = beside || start || c.touches || c.multiplicity != 1 || near_graze(c.t);
-    out.in_band = out.in_band || (doubtful[k] && (!beside || c.touches || c.multiplicity != 1));
+    out.in_band = out.in_band || (doubtful[k] && (!beside || start || c.touches || c.multiplicity != 1));
     out.certified = out.certified && c.certified;
   }
   for (const Hit& hit : hits) {
