@@ -173,6 +173,13 @@ void require_clean(const Tally& tally, const std::string& what) {
   for (std::size_t k = 0; k < classes; ++k) CHECK(tally.hits[k] > tally.rays[k] / 4);
 }
 
+// The first model with this in its name; null where there is none.
+const ClosedModel* model_called(const std::string& part) {
+  for (const ClosedModel& model : closed_models())
+    if (model.name.find(part) != model.name.npos) return &model;
+  return nullptr;
+}
+
 }  // namespace
 
 TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
@@ -208,11 +215,8 @@ TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
 // The second wall is met 5e-13 inside a patch, and by the oracle 3e-13 outside its neighbour too, which at
 // this cosine is nearer to the hit: 2e-4 times that is rounding.
 TEST_CASE("A hit at a glancing seam is the inner patch's", "[once]") {
-  const auto& models = closed_models();
-  const auto model = std::find_if(models.begin(), models.end(), [](const ClosedModel& m) {
-    return m.name.find("cube_2_4") != m.name.npos;
-  });
-  REQUIRE(model != models.end());
+  const ClosedModel* const model = model_called("cube_2_4");
+  REQUIRE(model);
   const Ray ray{{2.647331645611585, 1.496062887586922, -0.86532939361762828},
                 {-2.3133418813503517, -2.5737901161729488, 0.73489396841958232}};
   for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
@@ -229,14 +233,11 @@ TEST_CASE("A hit at a glancing seam is the inner patch's", "[once]") {
   }
 }
 
-// (d) of the figure turns inside out behind this vertex, so that a ray which leaves there meets one wall more;
-// and the oracle has the vertex outside of all four patches, by 10^-62.
+// (d) of the figure turns inside out behind this vertex, so that a ray which leaves there meets one wall
+// more; and the oracle has the vertex outside of all four patches, by 10^-62.
 TEST_CASE("A ray that starts at a vertex starts on a wall", "[once]") {
-  const auto& models = closed_models();
-  const auto model = std::find_if(models.begin(), models.end(), [](const ClosedModel& m) {
-    return m.name.find("figure_3: d") != m.name.npos;
-  });
-  REQUIRE(model != models.end());
+  const ClosedModel* const model = model_called("figure_3: d");
+  REQUIRE(model);
   const Ray ray{{1.8115771062699759, 0.60216342259173083, -0.30000000000000004},
                 {-0.36526349340679554, -0.88014713692854718, 0.30318904620837656}};
   Ray leaving = ray;
@@ -280,11 +281,8 @@ TEST_CASE("Rays that long runs found lost are met", "[once]") {
          {1353048.6443543644, 0.0, -3599797.6218051063},
          {-0.096326708817278131, 0.0, 0.99534977026592586},
          1e6}}) {
-    const auto& models = closed_models();
-    const auto model = std::find_if(models.begin(), models.end(), [&](const ClosedModel& m) {
-      return m.name.find(lost.model) != m.name.npos;
-    });
-    REQUIRE(model != models.end());
+    const ClosedModel* const model = model_called(lost.model);
+    REQUIRE(model);
     for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
       CAPTURE(model->name, static_cast<int>(solver));
       const bool moved = lost.center != dvec3(0.0) || lost.scale != 1.0;
