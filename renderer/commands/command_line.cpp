@@ -274,7 +274,8 @@ std::vector<std::string> option_names(const std::vector<const CLI::App*>& apps) 
   return names;
 }
 
-// Of an option that was not expected where it stands: `here` are those that may, `elsewhere` all others too.
+// Of an option that was not expected where it stands: those in `here` may stand there, those in `elsewhere`
+// at another place.
 std::string unexpected_option(const std::string& text, const std::vector<std::string>& here,
                               const std::vector<std::string>& elsewhere, const std::string& remedy) {
   const std::string name = text.substr(0, text.find('='));

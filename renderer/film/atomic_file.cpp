@@ -69,7 +69,7 @@ std::string behind_links(const std::string& target) {
   std::error_code error;
   std::filesystem::path path = target;
   for (int k = 0; std::filesystem::is_symlink(path, error); ++k) {
-    // As /dev/stdout does. The file behind it is being written to, and what it holds by others.
+    // As /dev/stdout is: a file behind it may hold what others wrote, which renaming would lose.
     if (std::filesystem::canonical(path.parent_path(), error).string().starts_with("/proc/"))
       refuse(target,
              "it is a stream that is open already; - is standard output, where that can be written to");

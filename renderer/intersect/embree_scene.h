@@ -6,8 +6,8 @@
 // coordinate in play is at most 2 r. Per axis, in units of 2^-24 r: rounding the origin costs 2 (|o| <= 2r,
 // half an ulp); rounding the direction bends the ray by 2^-24 of the way, 2 at the far side; Embree's slab
 // test, one subtraction and one product with a reciprocal good to 3 ulp, misplaces a plane by at most 5 2^-24
-// of the distance along the ray, 10. Boxes are padded by 2^-19 r, 32 of these units, and then rounded outward.
-// Entry and exit are compared with tfar rounded up by the same relative amount.
+// of the distance along the ray, 10. Boxes are padded by 2^-19 r, 32 of these units, and then rounded
+// outward. Entry and exit are compared with tfar rounded up by the same relative amount.
 #pragma once
 
 #include <cstdint>

@@ -63,9 +63,9 @@ struct LeafSet {
 // Divides every patch until its leaves are nearly linear as seen along their own normal, or, beside singular
 // points, for `max_depth` halvings, and beside places of little weight some more; what is not tame then goes
 // to `clipping`, slower and just as right.
-// Throws std::runtime_error, naming the patch, when a net is not finite, is of too high a degree, has no area,
-// has weights that stay of both signs (or zero) under subdivision, or next to none at a corner. Patches k with
-// without[k] get no leaves.
+// Throws std::runtime_error, naming the patch, when a net is not finite, is of too high a degree, has no
+// area, has weights that stay of both signs (or zero) under subdivision, or next to none at a corner. Patches
+// k with without[k] get no leaves.
 LeafSet build_leaves(const std::vector<Net>& patches, int max_depth, const std::vector<bool>& without = {});
 
 }  // namespace rondure

@@ -12,7 +12,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-
 HWY_BEFORE_NAMESPACE();
 namespace rondure {
 namespace HWY_NAMESPACE {
