@@ -80,7 +80,7 @@ std::string scene_of(const Pair& pair) {
 }
 
 struct Wall {
-  EllipsoidReference exact;
+  EllipsoidIn<long double> exact;  // a sphere: to some 2^-63 radii, `rounding_` being 2^-51 and more
   double radius;
   bool around;  // paths are inside
 };
@@ -92,7 +92,7 @@ class Walk {
       const Surface& surface = scene.tracer.surfaces()[static_cast<std::size_t>(k)].surface;
       const double r = pair.radius(k);
       const double deviation = surface.ellipsoid ? 8.0 * u * r : tangency_band(surface, r);
-      walls_.push_back({EllipsoidReference(dmat3(r), pair.center(k)), r, pair.nested && k == 1});
+      walls_.push_back({EllipsoidIn<long double>(dmat3(r), pair.center(k)), r, pair.nested && k == 1});
       rounding_ += 2.0 * deviation + 4.0 * u * (largest(pair.center(k)) + r);
     }
   }
@@ -201,15 +201,14 @@ class Walk {
       const Wall& w = walls_[static_cast<std::size_t>(k)];
       const bool own = ray.start.surface == k;
       // Into the one or out of the other by more than the rounding of walls and start.
-      const double below = w.around ? -std::min(w.exact.depth_at(ray.origin, ray.direction, 0.0),
-                                                w.exact.depth_at(ray.origin, ray.direction, end))
-                                    : w.exact.depth(ray.origin, ray.direction, end);
+      const EllipsoidIn<long double>::Line line = w.exact.line(ray.origin, ray.direction);
+      const double below = w.around ? -std::min(line.depth_at(0.0), line.depth_at(end)) : line.depth(end);
       tally.depth.add(below * w.radius, rounding_, [&] {
         return fmt::format("{}, wall {} of a ray from {} to t = {}: {}", pair_.name, k, ray.start.surface,
                            end, text_of(ray));
       });
       if (own && !w.around) continue;  // convex, and the ray leaves it
-      const EllipsoidChord c = w.exact.chord(ray.origin, ray.direction);
+      const EllipsoidChord c = line.chord();
       const int which = w.around ? 1 : 0;
       const double touching = std::sqrt(2.0 * rounding_ * w.radius);
       if (std::fabs(c.clearance) * w.radius <= rounding_) sure = false;
