@@ -37,7 +37,7 @@ class Direct : public Integrator {
   int max_depth_;
 };
 
-std::unique_ptr<Integrator> create(Params& params) {
+std::unique_ptr<Integrator> create_direct(Params& params) {
   return std::make_unique<Direct>(static_cast<int>(params.integer("max_depth", 32, 0, 100000)));
 }
 
@@ -48,7 +48,7 @@ void register_direct(Registry& registry) {
                                  "Direct light only: scattered once, after any number of mirrors and glass.",
                                  {{"max_depth", "integer in [0, 100000]", "32",
                                    "longest chain of mirrors and glass, and the last scattering"}},
-                                 create});
+                                 create_direct});
 }
 
 }  // namespace rondure

@@ -53,7 +53,7 @@ class Path : public Integrator {
   PathSettings settings_;
 };
 
-std::unique_ptr<Integrator> create(Params& params) {
+std::unique_ptr<Integrator> create_path(Params& params) {
   PathSettings settings;
   settings.max_depth = static_cast<int>(params.integer("max_depth", settings.max_depth, 0, 100000));
   settings.min_depth = static_cast<int>(params.integer("min_depth", settings.min_depth, 0, 100000));
@@ -68,7 +68,7 @@ void register_path(Registry& registry) {
       "Path tracing: all light, by light samples and scattering samples together.",
       {{"max_depth", "integer in [0, 100000]", "32", "scatterings on a path; 0 shows emission alone"},
        {"min_depth", "integer in [0, 100000]", "4", "scatterings before Russian roulette may end a path"}},
-      create});
+      create_path});
 }
 
 }  // namespace rondure

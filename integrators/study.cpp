@@ -80,7 +80,7 @@ ColorScale read_scale(Params& params, const LayerScale& own) {
   return scale;
 }
 
-std::unique_ptr<Integrator> create(Params& params) {
+std::unique_ptr<Integrator> create_study(Params& params) {
   if (!params.registry()) params.fail("no layer can be named here");
   Value fallback;
   fallback.kind = Value::Kind::string;
@@ -109,7 +109,7 @@ void register_study(Registry& registry) {
         "how the colours are spread over the range; \"linear\" where only \"range\" is given"},
        {"colors", "\"viridis\", \"diverging\" or \"grey\"", "\"viridis\"",
         "dark blue to yellow, blue over white to red, black to white"}},
-      create});
+      create_study});
 }
 
 }  // namespace rondure

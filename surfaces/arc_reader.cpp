@@ -13,7 +13,7 @@ namespace {
 using Kind = Value::Kind;
 
 // Points closer than this are the same to an arc.
-constexpr long double least_distance = 1e-6L;
+constexpr long double least_arc = 1e-6L;
 
 // What is given in doubles, or to fewer digits: a plane counts as passing through a corner from this
 // distance.
@@ -37,7 +37,7 @@ std::vector<lvec3> read_corners(Params& params, std::size_t count) {
     corners.push_back(read_direction(params, list.items[k], fmt::format("corners[{}]", k)));
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t next = (k + 1) % count;
-    if (!(glm::length(corners[next] - corners[k]) > least_distance))
+    if (!(glm::length(corners[next] - corners[k]) > least_arc))
       params.fail(list.items[next], fmt::format("corners[{}] and corners[{}] are the same point", k, next));
   }
   return corners;
@@ -57,7 +57,7 @@ lvec3 middle_in_given_plane(Params& arc, const Value& value, const std::string& 
       arc.fail(value, fmt::format("the plane of {} must contain both corners; it misses one by {:.3g}", name,
                                   static_cast<double>(off)));
   }
-  if (!(glm::length(p + q - 2 * distance * unit) > least_distance))
+  if (!(glm::length(p + q - 2 * distance * unit) > least_arc))
     arc.fail(value, fmt::format("the plane gives {} two halves of a circle to choose from: give a point "
                                 "\"through\" which it passes instead",
                                 name));
@@ -70,7 +70,7 @@ SphereArc read_arc(const Params& params, const Value* value, std::size_t k,
   const lvec3 &p = corners[k], &q = corners[next];
   const std::string name = fmt::format("arcs[{}]", k);
   if (!value || value->kind == Kind::null) {
-    if (!(glm::length(p + q) > least_distance))
+    if (!(glm::length(p + q) > least_arc))
       params.fail("corners",
                   fmt::format("corners[{}] and corners[{}] are opposite, so that many great circles "
                               "pass through both: give {} a point \"through\" which it passes",
@@ -89,7 +89,7 @@ SphereArc read_arc(const Params& params, const Value* value, std::size_t k,
   if (plane) return arc_through(p, middle_in_given_plane(arc, *plane, name, p, q), q);
   const lvec3 r = read_direction(params, *point, "\"through\"");
   for (const lvec3& corner : {p, q}) {
-    if (!(glm::length(r - corner) > least_distance))
+    if (!(glm::length(r - corner) > least_arc))
       params.fail(*point,
                   fmt::format("the point through which {} passes must not be one of its corners", name));
   }

@@ -34,7 +34,7 @@ Document read_file(Params& params) {
   }
 }
 
-Surface build(Params& params) {
+Surface build_bezier(Params& params) {
   Surface surface;
   if (!params.has("file")) {
     surface.closed = read_patches(params, surface);
@@ -63,7 +63,7 @@ void register_bezier(Registry& registry) {
                       "instead of patches: a JSON file {\"patches\": [...]}, found from the scene's folder"},
                      {"closed", "boolean", "false",
                       "the patches bound a solid; the normals d/du x d/dv of all must then point outward"}},
-                    build});
+                    build_bezier});
 }
 
 }  // namespace rondure

@@ -85,9 +85,10 @@ std::optional<Net> sought(const std::vector<const PreimageFamily*>& families, st
 
 }  // namespace
 
-std::vector<Root> roots_of(const Complex& holonomy) {
+std::vector<HolonomyRoot> roots_of(const Complex& holonomy) {
   const bool either = std::abs(holonomy + 1.0L) <= closes;
-  return either ? std::vector<Root>{Root::least, Root::other} : std::vector<Root>{Root::least};
+  return either ? std::vector<HolonomyRoot>{HolonomyRoot::least, HolonomyRoot::other}
+                : std::vector<HolonomyRoot>{HolonomyRoot::least};
 }
 
 double angle_excess(const Complex& holonomy) {
@@ -168,7 +169,7 @@ Surface best_image(const Params& params, const std::vector<PreimageFamily>& fami
     if (auto found = sought(regular, surface.notes)) surface.patches = {std::move(*found)};
   }
   if (!surface.patches.empty()) return surface;
-  const Regularity why = regularity(first.front());
+  const PreimageRegularity why = regularity(first.front());
   if (why.flat) params.fail("corners", "these arcs enclose no area: they run along each other");
   if (regularity(mirrored(first.front())).regular)
     params.fail(

@@ -17,7 +17,7 @@ inline constexpr long double degrees_per_radian = 57.295779513082320876798154814
 inline constexpr long double closes = 1e-10L;
 
 // The roots of the holonomy to try: both, where rounding decides which is the lesser.
-std::vector<Root> roots_of(const Complex& holonomy);
+std::vector<HolonomyRoot> roots_of(const Complex& holonomy);
 
 // In degrees; 360 where rounding decides whether it is that or -360.
 double angle_excess(const Complex& holonomy);

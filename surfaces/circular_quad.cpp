@@ -48,7 +48,7 @@ std::vector<PreimageFamily> candidates(Params& params, const SphericalQuad& quad
     if (exists) list.push_back(bilinear_family(quad));
   }
   if (construction != "biquadratic") {
-    for (const Root root : roots_of(holonomy(quad))) {
+    for (const HolonomyRoot root : roots_of(holonomy(quad))) {
       if (along != "u") list.push_back(linear_quadratic_family(quad, root));
       if (along != "v") list.push_back(quadratic_linear_family(quad, root));
     }
@@ -56,7 +56,7 @@ std::vector<PreimageFamily> candidates(Params& params, const SphericalQuad& quad
   return list;
 }
 
-Surface build(Params& params) {
+Surface build_circular_quad(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 4);
   const SphericalQuad quad{{arcs[0], arcs[1], arcs[2], arcs[3]}};
   const std::optional<GivenShape> given = read_shape(params, 3, 1);
@@ -91,7 +91,7 @@ void register_circular_quad(Registry& registry) {
                  "of their "
                  "phases",
                  4)},
-      build});
+      build_circular_quad});
 }
 
 }  // namespace rondure

@@ -41,12 +41,13 @@ std::vector<PreimageFamily> candidates(Params& params, const SphericalTriangle& 
     if (exists) list.push_back(linear_family(triangle));
   }
   if (construction != "quadratic") {
-    for (const Root root : roots_of(holonomy(triangle))) list.push_back(quadratic_family(triangle, root));
+    for (const HolonomyRoot root : roots_of(holonomy(triangle)))
+      list.push_back(quadratic_family(triangle, root));
   }
   return list;
 }
 
-Surface build(Params& params) {
+Surface build_circular_triangle(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 3);
   const SphericalTriangle triangle{{arcs[0], arcs[1], arcs[2]}};
   const std::optional<GivenShape> given = read_shape(params, 3, 2);
@@ -74,7 +75,7 @@ void register_circular_triangle(Registry& registry) {
                  "degrees of "
                  "the phases of the first two",
                  5)},
-      build});
+      build_circular_triangle});
 }
 
 }  // namespace rondure

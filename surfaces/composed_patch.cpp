@@ -68,7 +68,7 @@ void check_domain(const Params& params, const Params& domain, const Net& g, cons
   }
 }
 
-Surface build(Params& params) {
+Surface build_composed_patch(Params& params) {
   const Surface whole = nested_surface(params, "of");
   if (whole.patches.empty())
     params.fail("of", "this surface is met analytically and has no patches to cut from");
@@ -103,7 +103,7 @@ void register_composed_patch(Registry& registry) {
         "its "
         "domain; counter-clockwise keeps the normals' side. The degree is the sum of the patch's two (a "
         "triangle's one) times the domain's, at most 24"}},
-      build});
+      build_composed_patch});
 }
 
 }  // namespace rondure

@@ -43,7 +43,7 @@ void add_guides(const std::vector<dvec4>& polygon, Surface& surface) {
   }
 }
 
-Surface build(Params& params) {
+Surface build_curve(Params& params) {
   const ReadCurve curve = read_curve(params);
   const double radius = params.number("tube", 0.02, Range::positive());
   Surface surface;
@@ -83,7 +83,7 @@ void register_curve(Registry& registry) {
       "curve",
       "a rational Bezier or B-spline curve in space or on the unit sphere, as a round tube (Dietz, Hoschek, "
       "Juettler 1993, sections 3.4, 3.6 and 4)",
-      docs, build});
+      docs, build_curve});
 }
 
 }  // namespace rondure

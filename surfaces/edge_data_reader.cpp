@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "renderer/api/index.h"
 #include "renderer/complex/regular_joins.h"
 
 namespace rondure {
@@ -12,11 +13,9 @@ namespace {
 
 using Kind = Value::Kind;
 
-std::size_t index(std::int64_t k) { return static_cast<std::size_t>(k); }
-
-class Reader {
+class EdgeDataReader {
  public:
-  explicit Reader(Params& object) : object_(object) {}
+  explicit EdgeDataReader(Params& object) : object_(object) {}
 
   SurfaceComplex read() {
     const std::vector<std::int64_t> sides = object_.integers("sides", 3, 4);
@@ -152,6 +151,6 @@ class Reader {
 
 }  // namespace
 
-SurfaceComplex read_joined_polygons(Params& object) { return Reader(object).read(); }
+SurfaceComplex read_joined_polygons(Params& object) { return EdgeDataReader(object).read(); }
 
 }  // namespace rondure

@@ -100,7 +100,7 @@ void warn_if_singular(Surface& surface) {
       found.singular.size() > 1 ? " and elsewhere" : ""));
 }
 
-Surface build(Params& params) {
+Surface build_gc_complex(Params& params) {
   const ComplexChoice choice = read_complex(params);
   const int degree = static_cast<int>(params.integer("degree", 3, 1, 8));
   const SplineSpace space = space_of(params, choice.complex, degree);
@@ -150,7 +150,7 @@ void register_gc_complex(Registry& registry) {
        control_points_doc("those that come nearest to the shape",
                           "of the basis functions, named \"p:ijk\" (triangles) or \"p:i,j\" (squares) after "
                           "polygon and coefficient; they replace what the vertices give")},
-      build});
+      build_gc_complex});
 }
 
 }  // namespace rondure

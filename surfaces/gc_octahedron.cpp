@@ -37,7 +37,7 @@ Defaults rational_points() {
           at(-4, 7, 0), at(2, 0, 0),  at(0, 2, 0),  at(0, 0, 2)};
 }
 
-Surface build(Params& params) {
+Surface build_gc_octahedron(Params& params) {
   const SurfaceComplex complex = octahedron_complex();
   const std::string name =
       params.choice("basis", {"splines", "hierarchical", "rational", "sphere"}, "splines");
@@ -80,7 +80,7 @@ void register_gc_octahedron(Registry& registry) {
                           "0 on; H0, Hx, Hy, "
                           "Hz, H12, H34, HC, HD; A to F, vw, uw, uv. With weights in some: the quotient sum "
                           "w P f / sum w f")},
-      build});
+      build_gc_octahedron});
 }
 
 }  // namespace rondure

@@ -47,7 +47,7 @@ void add_domain(const TriangleNet& net, std::vector<Guide>& out) {
   for (int k = 0; k < 3; ++k) out.push_back({{dvec4(corners[k], 1.0), dvec4(corners[(k + 1) % 3], 1.0)}});
 }
 
-Surface build(Params& params) {
+Surface build_iss(Params& params) {
   std::vector<IssPatch> patches = read_iss_patches(params);
   modify_iss_patches(params, patches);
   const std::string form = params.choice("form", {"triangles", "degenerate", "quadrilaterals"}, "triangles");
@@ -107,7 +107,7 @@ void register_iss(Registry& registry) {
        {"arcs", "array of {\"from\": [x, y, z], \"to\": [x, y, z]}", "none",
         "directions: over the shorter great-circle arc between them the surface is an inverse circular "
         "curve, which \"arcs\" in \"show\" draws"}},
-      build});
+      build_iss});
 }
 
 }  // namespace rondure

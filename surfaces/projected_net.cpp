@@ -8,7 +8,7 @@
 namespace rondure {
 namespace {
 
-Surface build(Params& params) {
+Surface build_projected_net(Params& params) {
   Surface surface;
   for (const Preimage& preimage : read_preimages(params, "patches", false))
     surface.patches.push_back(sphere_image(preimage));
@@ -24,7 +24,7 @@ void register_projected_net(Registry& registry) {
       "patches of the unit sphere from nets in projective 3-space, degree doubled (Dietz, Hoschek, Juettler "
       "1993, section 2.2)",
       {preimages_doc("patches"), {"closed", "boolean", "false", "the patches bound a solid"}},
-      build});
+      build_projected_net});
 }
 
 }  // namespace rondure

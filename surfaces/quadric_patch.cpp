@@ -132,7 +132,7 @@ bool comes_near_infinity(const Net& net) {
   return !(reach * std::abs(corner.w) <= furthest * std::max(std::abs(corner.w), largest(dvec3(corner))));
 }
 
-Surface build(Params& params) {
+Surface build_quadric_patch(Params& params) {
   const Quadric quadric = read_quadric(params);
   const char* const sources[] = {"surface", "preimage", "rulings", "corners"};
   const char* source = nullptr;
@@ -182,7 +182,7 @@ void register_quadric_patch(Registry& registry) {
         "with "
         "longitude s + t and z/c = tan(s - t); hyperbolic_paraboloid: numbers, with x/a = (s + t)/2, y/b = "
         "(s - t)/2, z/c = s t"}},
-      build};
+      build_quadric_patch};
   for (ParameterDoc& doc : section_quad_docs()) family.parameters.push_back(std::move(doc));
   registry.add(std::move(family));
 }

@@ -16,7 +16,7 @@ using Kind = Value::Kind;
 // Of coordinates of about 1: scenes give six digits or more.
 constexpr long double on_quadric = 1e-5L;
 // How much the two factors of the holonomy may differ where a patch of degree (2, 2) is made all the same.
-constexpr long double closes = 1e-9L;
+constexpr long double same_factors = 1e-9L;
 
 // The plane through three points, all homogeneous.
 lvec4 plane_of(const lvec4& p, const lvec4& q, const lvec4& r) {
@@ -27,9 +27,9 @@ lvec4 plane_of(const lvec4& p, const lvec4& q, const lvec4& r) {
   return {minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3), -minor(0, 1, 2)};
 }
 
-class Reader {
+class SectionReader {
  public:
-  Reader(Params& params, const Quadric& quadric)
+  SectionReader(Params& params, const Quadric& quadric)
       : params_(params), back_(glm::inverse(map_to(quadric))), forth_(glm::transpose(map_to(quadric))) {
     const bool central = quadric.kind == QuadricKind::one_sheet;
     centre_ = back_ * (quadric.frame * (central ? lvec4(0, 0, 0, 1) : lvec4(0, 0, 1, 0)));
@@ -126,7 +126,7 @@ class Reader {
   }
 };
 
-bool weights_positive(const Net& net) {
+bool weights_of_one_sign(const Net& net) {
   const std::vector<dvec4>& points = points_of(net);
   const bool all = std::all_of(points.begin(), points.end(), [](const dvec4& p) { return p.w > 0.0; });
   return all || std::all_of(points.begin(), points.end(), [](const dvec4& p) { return p.w < 0.0; });
@@ -135,13 +135,13 @@ bool weights_positive(const Net& net) {
 }  // namespace
 
 Preimage read_section_quad(Params& params, const Quadric& quadric) {
-  const RuledQuad quad = Reader(params, quadric).read();
+  const RuledQuad quad = SectionReader(params, quadric).read();
   const std::string construction =
       params.choice("construction", {"auto", "biquadratic", "degree_2_4"}, "auto");
   const std::string along = params.choice("quartic", {"auto", "u", "v"}, "auto");
   const lvec2 h = holonomy(quad);
   const long double defect = std::log(h.x / h.y);
-  const bool exists = std::abs(defect) <= closes;
+  const bool exists = std::abs(defect) <= same_factors;
   if (construction == "biquadratic" && !exists)
     params.fail(
         "construction",
@@ -160,7 +160,7 @@ Preimage read_section_quad(Params& params, const Quadric& quadric) {
   const TensorPreimage* best = nullptr;
   for (const TensorPreimage& candidate : list) {
     if (!is_regular_ruled(candidate)) continue;
-    const bool positive = weights_positive(quadric_image(candidate, quadric));
+    const bool positive = weights_of_one_sign(quadric_image(candidate, quadric));
     if (!best || positive) best = &candidate;
     if (positive) break;
   }

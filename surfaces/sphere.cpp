@@ -5,7 +5,7 @@
 namespace rondure {
 namespace {
 
-Surface build(Params&) {
+Surface build_sphere(Params&) {
   Surface surface;
   surface.ellipsoid = dmat3(1.0);
   surface.closed = true;
@@ -15,7 +15,7 @@ Surface build(Params&) {
 }  // namespace
 
 void register_sphere(Registry& registry) {
-  registry.add(SurfaceFamily{"sphere", "the unit sphere itself, met analytically", {}, build});
+  registry.add(SurfaceFamily{"sphere", "the unit sphere itself, met analytically", {}, build_sphere});
 }
 
 }  // namespace rondure

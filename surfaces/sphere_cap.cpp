@@ -30,7 +30,7 @@ Range accurate_weights(double z) {
                        std::max(1e6, 2.0 * least_positive_weight(z)));
 }
 
-Surface build(Params& params) {
+Surface build_sphere_cap(Params& params) {
   const double z = params.number("z_max", 0.0, Range{-1.0, largest_z, true, false});
   const double safe = std::max(1.0, 1.125 * least_positive_weight(z));
   const double middle = params.number("middle_weight", safe, accurate_weights(z));
@@ -58,7 +58,7 @@ void register_sphere_cap(Registry& registry) {
         "weight of the planar disk's middle control point; moves parameters, not the surface (the paper has "
         "1). Where the root r of (1 + 4 z_max) / (2 - 2 z_max) is above 4.45, it must be 0.9 (r - 4.45) at "
         "least, for accuracy; where the default is near 10^6 or above, it may be some 1.8 times that"}},
-      build});
+      build_sphere_cap});
 }
 
 }  // namespace rondure

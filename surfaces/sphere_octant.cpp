@@ -12,7 +12,7 @@ namespace {
 constexpr double half_root = 0.70710678118654752440;
 
 // The quarter circle from (1, 0) to (0, 1): (x, y, w).
-constexpr double quarter[3][3] = {{1.0, 0.0, 1.0}, {half_root, half_root, half_root}, {0.0, 1.0, 1.0}};
+constexpr double quarter_circle[3][3] = {{1.0, 0.0, 1.0}, {half_root, half_root, half_root}, {0.0, 1.0, 1.0}};
 
 // Product of quarter circles, in longitude along u and in latitude along v. The middle weight is the exact
 // 1/2.
@@ -21,8 +21,8 @@ TensorNet first_octant() {
   TensorNet net(2, 2);
   for (int i = 0; i <= 2; ++i) {
     for (int j = 0; j <= 2; ++j) {
-      const double* c = quarter[i];
-      const double* p = quarter[j];
+      const double* c = quarter_circle[i];
+      const double* p = quarter_circle[j];
       net.at(i, j) = {product(c[0], p[0]), product(c[1], p[0]), product(c[2], p[1]), product(c[2], p[2])};
     }
   }
@@ -38,7 +38,7 @@ Net octant(std::int64_t index) {
   return transformed(first_octant(), mirror);
 }
 
-Surface build(Params& params) {
+Surface build_sphere_octant(Params& params) {
   std::vector<std::int64_t> list{0, 1, 2, 3, 4, 5, 6, 7};
   if (params.has("octants")) list = params.integers("octants", 0, 7);
   if (list.empty()) params.fail("octants", "octants is empty: name at least one of 0 to 7");
@@ -61,7 +61,7 @@ void register_sphere_octant(Registry& registry) {
       "octants of the unit sphere, biquadratic, one edge collapsed to a pole (Cobb 1988, section 1)",
       {{"octants", "array of distinct integers 0 to 7", "[0, 1, 2, 3, 4, 5, 6, 7]",
         "which octants; bits 0, 1, 2 (values 1, 2, 4) make x, y, z negative"}},
-      build});
+      build_sphere_octant});
 }
 
 }  // namespace rondure

@@ -53,7 +53,7 @@ std::vector<Net> polyhedral(const Params& params, const std::vector<Tile>& tiles
   return patches;
 }
 
-Surface build(Params& params) {
+Surface build_sphere_tiling(Params& params) {
   const Value* given = params.raw("topology");
   // Not among the choices, as it cannot be built: the tool says why.
   const bool impossible = given && given->string == "tetrahedron_pairs";
@@ -121,7 +121,7 @@ void register_sphere_tiling(Registry& registry) {
         "triangles have a corner in the middle of the edge"},
        middle_weight_doc("1"),
        corner_weights_doc()},
-      build});
+      build_sphere_tiling});
 }
 
 }  // namespace rondure

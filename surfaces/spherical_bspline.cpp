@@ -64,7 +64,7 @@ BSplineSurface read_surface(Params& params) {
   return surface;
 }
 
-Surface build(Params& params) {
+Surface build_spherical_bspline(Params& params) {
   const BSplineSurface spline = read_surface(params);
   Surface surface;
   for (const TensorPreimage& piece : bezier_pieces(spline)) {
@@ -95,7 +95,7 @@ void register_spherical_bspline(Registry& registry) {
         "along u and v, not decreasing; as many as control points and degree + 1. A simple knot leaves the "
         "surface differentiable degree - 1 times"},
        {"closed", "boolean", "false", "the patches bound a solid"}},
-      build});
+      build_spherical_bspline});
 }
 
 }  // namespace rondure

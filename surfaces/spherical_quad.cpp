@@ -23,7 +23,7 @@ namespace {
   params.fail(whole ? *list : list->items[defect.index], defect.text + about);
 }
 
-Surface build(Params& params) {
+Surface build_spherical_quad(Params& params) {
   const std::vector<SphereArc> arcs = read_arcs(params, 4);
   const SphericalQuad quad{{arcs[0], arcs[1], arcs[2], arcs[3]}};
   QuadPatchOptions options;
@@ -57,7 +57,7 @@ void register_spherical_quad(Registry& registry) {
         "middle of the stereographic image, which must be convex; one projects from the point opposite"},
        middle_weight_doc("1, doubled until the patch is regular"),
        corner_weights_doc()},
-      build});
+      build_spherical_quad});
 }
 
 }  // namespace rondure

@@ -34,7 +34,7 @@ Interval read_interval(Params& params, const char* key, double distance) {
 }
 
 // s(x, y) = (2 d x, 2 d y, x^2 + y^2 - d^2, x^2 + y^2 + d^2) with d = 1 - plane_z, divided by d^2.
-Surface build(Params& params) {
+Surface build_stereographic_patch(Params& params) {
   const double plane = params.number("plane_z", -1.0, {-1e6, 1e6, false, false});
   if (plane == 1.0)
     params.fail("plane_z",
@@ -68,7 +68,7 @@ void register_stereographic_patch(Registry& registry) {
        {"y", "interval [low, high]", "[-1, 1]", "extent along y, and along u"},
        {"plane_z", "number in [-10^6, 10^6] other than 1", "-1",
         "height of the rectangle's plane; moves parameters as a scale"}},
-      build});
+      build_stereographic_patch});
 }
 
 }  // namespace rondure

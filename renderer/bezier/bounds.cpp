@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 
 namespace rondure {
 namespace {
-
-// Each level halves both directions. A weight that is positive by 1% of its largest coefficient is resolved
-// within six levels; a thin set of pieces along a nearly vanishing weight may need more.
-constexpr int deepest = 12;
-// Pieces looked at before giving up.
-constexpr int most_pieces = 20000;
 
 struct Search {
   Box box;
@@ -22,7 +16,6 @@ struct Search {
 };
 
 void add_hull(const std::vector<dvec4>& points, Box& box) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const dvec4& h : points) {
     const dvec3 p = dvec3(h) / h.w;
     for (int c = 0; c < 3; ++c) {
@@ -64,6 +57,11 @@ bool add_pieces(const TriangleNet& net, int depth, Search& search) {
 
 template <class N>
 bool add_piece(const N& net, int depth, Search& search) {
+  // Each level halves both directions. A weight that is positive by 1% of its largest coefficient is resolved
+  // within six levels; a thin set of pieces along a nearly vanishing weight may need more.
+  constexpr int deepest = 12;
+  // Looked at before giving up.
+  constexpr int most_pieces = 20000;
   if (++search.pieces > most_pieces) return false;
   if (one_sign(net.points)) {
     add_hull(net.points, search.box);

@@ -15,4 +15,10 @@ Exact exact_of(double x) {
   return exponent >= 0 ? Exact(mantissa * power) : Exact(mantissa, power);
 }
 
+Integer exact_binomial(int n, int k) {
+  Integer c = 1;
+  for (int i = 0; i < k; ++i) c = c * (n - i) / (i + 1);
+  return c;
+}
+
 }  // namespace rondure

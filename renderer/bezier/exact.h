@@ -14,4 +14,7 @@ inline double rounded(const Exact& x) { return x.convert_to<double>(); }
 // Exactly the number, which must be finite.
 Exact exact_of(double x);
 
+// n! / (k! (n - k)!), of any size.
+Integer exact_binomial(int n, int k);
+
 }  // namespace rondure

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/legendre_profile.h"
 
 namespace rondure {
 namespace {
-
-constexpr double epsilon = static_cast<double>(std::numeric_limits<long double>::epsilon());
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Ellipses tried; 1 is the interval itself.
 constexpr double ellipses[] = {1.0, 1.1, 1.2, 1.35, 1.5,  1.75, 2.0,  2.4,
@@ -199,16 +196,16 @@ void bound_quadrature(IntegrationCell& cell, const Profiles& p, const Majorant& 
 // Of the sums, from the rounding of the nets and of every operation.
 void bound_rounding(IntegrationCell& cell, const Majorant& real, const Profile& weight) {
   const auto error = [](const LongNet& net) {
-    return net.noise + epsilon * (2 * (net.m + net.n) + 8) * net.hull();
+    return net.noise + long_epsilon * (2 * (net.m + net.n) + 8) * net.hull();
   };
   const double value = error(cell.net), du = error(cell.du), dv = error(cell.dv);
   const double hull = cell.net.hull(), in_u = cell.du.hull(), in_v = cell.dv.hull();
   // N and the determinant are sums of products of three coordinates, one of each kind.
   const double product = 4.0 * (value * in_u * in_v + hull * (du * in_v + in_u * dv)) +
-                         16.0 * epsilon * hull * in_u * in_v + 4.0 * cell.normal_noise;
+                         16.0 * long_epsilon * hull * in_u * in_v + 4.0 * cell.normal_noise;
   const Grid flat(weight.in_u.size(), 1.0);
   const double least = std::abs(weight.middle) - weight.deviation(true, flat);
-  const double quotient = 5.0 * value / least + 64.0 * epsilon;
+  const double quotient = 5.0 * value / least + 64.0 * long_epsilon;
   const double cube = least * least * least;
   cell.area_rounding = powers(product / cube + quotient * real.area, real.reach);
   cell.cone_rounding = powers(product / cube + quotient * real.cone, real.reach);

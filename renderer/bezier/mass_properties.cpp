@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <numbers>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/patch_integrals.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/parallel/parallel_for.h"
@@ -15,10 +15,7 @@
 namespace rondure {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr double goal = 1e-13;
+constexpr double relative_error = 1e-13;
 constexpr std::size_t most_cells = 100000, most_cells_of_a_patch = 4000;
 
 dmat3 inertia_of(const dmat3& second) { return dmat3(second[0][0] + second[1][1] + second[2][2]) - second; }
@@ -54,7 +51,7 @@ Frame frame_of(const Surface& surface) {
   return frame;
 }
 
-struct Sum {
+struct BodySum {
   MomentSums sums;
   OrderErrors errors{};
 
@@ -67,7 +64,7 @@ struct Sum {
 };
 
 // With m = first / total: centroid m, second moment about it S - total m m^T.
-Body body_of(const Sum& sum, const dvec3& about) {
+Body body_of(const BodySum& sum, const dvec3& about) {
   const MomentSums& s = sum.sums;
   Body out;
   out.measure = static_cast<double>(s.total);
@@ -103,14 +100,14 @@ MassProperties of_patches(const Surface& surface) {
   const std::size_t count = surface.patches.size();
   const Frame frame = frame_of(surface);
   IntegralGoal each;
-  each.error = goal / static_cast<double>(std::max<std::size_t>(count, 1));
+  each.error = relative_error / static_cast<double>(std::max<std::size_t>(count, 1));
   each.extent = frame.extent > 0.0 ? frame.extent : 1.0;
   each.most_cells = static_cast<int>(
       std::clamp<std::size_t>(most_cells / std::max<std::size_t>(count, 1), 1, most_cells_of_a_patch));
   std::vector<PatchIntegrals> parts(count);
   parallel_for(count,
                [&](std::size_t k) { parts[k] = integrate_patch(surface.patches[k], frame.middle, each); });
-  Sum shell, solid;
+  BodySum shell, solid;
   lvec3 vector_area(0.0L);
   for (const PatchIntegrals& p : parts) {
     shell.add(p.area, p.area_error);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/quotient.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/regular_normal.h"
@@ -13,9 +13,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest_component(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -29,7 +26,7 @@ void values_inside(int n, double t, double* out) {
   for (int k = 0; k <= n; ++k) out[k] = binomial(n, k) * std::pow(a, k) * std::pow(b, n - k);
 }
 
-struct Sum {
+struct SumOfTerms {
   dvec3 value{0.0};
   double terms = 0.0;  // sum of the sizes of what was added, coordinate by coordinate
 
@@ -39,15 +36,15 @@ struct Sum {
   }
 };
 
-Sum sum_of(const TensorPolynomial<dvec3>& p, const double* bu, const double* bv) {
-  Sum sum;
+SumOfTerms sum_of(const TensorPolynomial<dvec3>& p, const double* bu, const double* bv) {
+  SumOfTerms sum;
   for (int i = 0; i <= p.m; ++i) {
     for (int j = 0; j <= p.n; ++j) sum.add(bu[i] * bv[j], p.at(i, j));
   }
   return sum;
 }
 
-Sum evaluate(const TensorPolynomial<dvec3>& p, double u, double v) {
+SumOfTerms evaluate(const TensorPolynomial<dvec3>& p, double u, double v) {
   double bu[max_binomial_degree + 1], bv[max_binomial_degree + 1];
   bernstein_values(p.m, u, bu);
   bernstein_values(p.n, v, bv);
@@ -72,13 +69,13 @@ void visit_basis(int n, double a, double b, double c, Visit&& visit) {
   }
 }
 
-Sum evaluate(const TrianglePolynomial<dvec3>& p, double a, double b, double c) {
-  Sum sum;
+SumOfTerms evaluate(const TrianglePolynomial<dvec3>& p, double a, double b, double c) {
+  SumOfTerms sum;
   visit_basis(p.n, a, b, c, [&](int i, int j, double basis) { sum.add(basis, p.at(i, j)); });
   return sum;
 }
 
-Sum evaluate(const TrianglePolynomial<dvec3>& p, double u, double v) {
+SumOfTerms evaluate(const TrianglePolynomial<dvec3>& p, double u, double v) {
   return evaluate(p, u, v, std::max(1.0 - u - v, 0.0));
 }
 
@@ -98,7 +95,7 @@ dvec3 value_inside(const TrianglePolynomial<dvec3>& p, double u, double v) {
 template <class Polynomial>
 dvec3 value_or_limit(const Polynomial& p, double u, double v) {
   constexpr double cancelled = 1e-2;
-  const Sum sum = evaluate(p, u, v);
+  const SumOfTerms sum = evaluate(p, u, v);
   if (largest_component(sum.value) > cancelled * sum.terms) return sum.value;
   return sum.terms == 0.0 ? value_inside(p, u, v) : dvec3(0.0);
 }

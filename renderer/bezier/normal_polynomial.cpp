@@ -3,15 +3,13 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/normal.h"
 #include "renderer/bezier/wedge.h"
 
 namespace rondure {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 double largest_coordinate(const std::vector<dvec4>& points) {
   dvec3 largest(0.0);

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/legendre_profile.h"
 
 namespace rondure {
 namespace {
-
-constexpr double epsilon = static_cast<double>(std::numeric_limits<long double>::epsilon());
 
 // N along an edge is zero but for rounding when below this, relative to the product of its three factors.
 constexpr double collapsed_noise = 1e-14;
@@ -56,14 +54,14 @@ LongNet as_tensor(const TriangleNet& net, const dvec3& about, Units unit) {
     }
     out.points.insert(out.points.end(), row.begin(), row.end());
   }
-  out.noise = epsilon * (2 * n + 2) * out.hull();
+  out.noise = long_epsilon * (2 * n + 2) * out.hull();
   return out;
 }
 
 LongNet as_tensor(const TensorNet& net, const dvec3& about, Units unit) {
   LongNet out{net.m, net.n, {}, 0.0};
   for (const dvec4& p : net.points) out.points.push_back(moved(p, about, unit));
-  if (about != dvec3(0.0)) out.noise = 2.0 * epsilon * out.hull();
+  if (about != dvec3(0.0)) out.noise = 2.0 * long_epsilon * out.hull();
   return out;
 }
 
@@ -77,7 +75,7 @@ LongNet derivative(const LongNet& net, bool along_u) {
       out.points.push_back(static_cast<long double>(degree) * (high - low));
     }
   }
-  out.noise = 2.0 * degree * net.noise + 2.0 * epsilon * out.hull();
+  out.noise = 2.0 * degree * net.noise + 2.0 * long_epsilon * out.hull();
   return out;
 }
 
@@ -86,7 +84,7 @@ std::array<LongNet, 2> halves(const LongNet& net, bool along_u) {
   const int degree = along_u ? net.m : net.n, lines = along_u ? net.n + 1 : net.m + 1;
   const int step = along_u ? net.n + 1 : 1, next = along_u ? 1 : net.n + 1;
   std::array<LongNet, 2> out{net, net};
-  for (LongNet& half : out) half.noise += epsilon * degree * net.hull();
+  for (LongNet& half : out) half.noise += long_epsilon * degree * net.hull();
   std::vector<lvec4> work(static_cast<std::size_t>(degree) + 1);
   for (int line = 0; line < lines; ++line) {
     const auto at = [&](int k) { return static_cast<std::size_t>(line * next + k * step); };
@@ -127,7 +125,7 @@ double excess(const IntegrationCell& cell, const IntegralGoal& goal) {
     worst = std::max({worst, cell.area_error[k] / unit, cell.cone_error[k] / (unit * goal.extent)});
     unit *= goal.extent;
   }
-  return std::isnan(worst) ? std::numeric_limits<double>::infinity() : worst;
+  return std::isnan(worst) ? infinity : worst;
 }
 
 void add(MomentSums& sum, const MomentSums& s) {
@@ -154,7 +152,7 @@ void find_collapsed(IntegrationCell& cell, const GaussRule& in_u, const GaussRul
   }
 }
 
-struct Piece {
+struct RankedCell {
   double excess;
   std::unique_ptr<IntegrationCell> cell;
 };
@@ -162,10 +160,10 @@ struct Piece {
 // Pieces, the worst first, until they reach the goal together, or until twice as many have not halved the
 // error: then it is rounding, as in patches of high degree, and more would not help. Few pieces say nothing:
 // where no bound but the largest integrand is known yet, halving changes little.
-std::vector<Piece> pieces_of(std::unique_ptr<IntegrationCell> whole, const GaussRule& in_u,
-                             const GaussRule& in_v, const IntegralGoal& goal) {
-  const auto less = [](const Piece& a, const Piece& b) { return a.excess < b.excess; };
-  std::vector<Piece> heap;
+std::vector<RankedCell> pieces_of(std::unique_ptr<IntegrationCell> whole, const GaussRule& in_u,
+                                  const GaussRule& in_v, const IntegralGoal& goal) {
+  const auto less = [](const RankedCell& a, const RankedCell& b) { return a.excess < b.excess; };
+  std::vector<RankedCell> heap;
   const auto push = [&](std::unique_ptr<IntegrationCell> cell) {
     integrate(*cell, in_u, in_v);
     heap.push_back({excess(*cell, goal), std::move(cell)});
@@ -174,14 +172,14 @@ std::vector<Piece> pieces_of(std::unique_ptr<IntegrationCell> whole, const Gauss
   push(std::move(whole));
   const auto total = [&] {
     double sum = 0.0;
-    for (const Piece& p : heap) sum += p.excess;
+    for (const RankedCell& p : heap) sum += p.excess;
     return sum;
   };
   // A piece of high degree has many nodes, which see as much as several pieces of a lower one: 256 pieces of
   // degree 4 are some 40,000.
   const auto nodes = static_cast<std::size_t>(in_u.count * in_v.count);
   std::size_t next_look = std::clamp<std::size_t>(256 * 13 * 13 / nodes, 16, 256);
-  double last = std::numeric_limits<double>::infinity();
+  double last = infinity;
   // All the work on a patch is at most forty times that on as many pieces of degree 4.
   const auto coefficients = static_cast<std::size_t>((in_u.degree + 1) * (in_v.degree + 1));
   const std::size_t affordable = std::max<std::size_t>(
@@ -223,7 +221,7 @@ PatchIntegrals integrate_patch(const Net& net, const dvec3& about, const Integra
   const GaussRule& in_v = gauss_rule(whole->net.n);
   find_collapsed(*whole, in_u, in_v);
   const IntegralGoal scaled{goal.error, goal.extent / unit.length, goal.most_cells};
-  for (const Piece& p : pieces_of(std::move(whole), in_u, in_v, scaled)) {
+  for (const RankedCell& p : pieces_of(std::move(whole), in_u, in_v, scaled)) {
     const IntegrationCell& c = *p.cell;
     add(out.area, c.area);
     add(out.cone, c.cone);

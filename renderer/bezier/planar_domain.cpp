@@ -12,7 +12,6 @@
 namespace rondure {
 namespace {
 
-constexpr int deepest = 7;
 constexpr double slack = 0x1p-30;
 
 // The least of what must not be negative inside the domain.
@@ -51,6 +50,7 @@ std::vector<TriangleNet> quarters_of(const TriangleNet& net) {
 
 template <class N>
 std::optional<DomainFault> search(const N& net, ParameterDomain domain, int depth) {
+  constexpr int deepest = 7;
   if (clear(net.points, domain)) return std::nullopt;
   for (const dvec4& corner : corners_of(net)) {
     if (const auto fault = fault_at(corner, domain)) return fault;

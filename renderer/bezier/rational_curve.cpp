@@ -45,10 +45,9 @@ RationalCurve line_on(const TriangleNet& net, dvec2 from, dvec2 to) {
   return line;
 }
 
-// Where coefficients of both signs stay after so many halvings the weight is a zero but for rounding.
-constexpr int deepest = 40;
-
 bool has_one_sign(const std::vector<double>& weights, int depth) {
+  // Where coefficients of both signs stay after so many halvings the weight is a zero but for rounding.
+  constexpr int deepest = 40;
   const auto [low, high] = std::minmax_element(weights.begin(), weights.end());
   if (*low > 0.0 || *high < 0.0) return true;
   // The ends are values of the polynomial.

@@ -11,10 +11,8 @@
 namespace rondure {
 namespace {
 
-constexpr int most_pieces = 4096;
-
-using Tensor = TensorPolynomial<dvec3>;
-using Triangle = TrianglePolynomial<dvec3>;
+using VectorTensor = TensorPolynomial<dvec3>;
+using VectorTriangle = TrianglePolynomial<dvec3>;
 
 // X over a piece of the domain, and the piece's corners (u, v).
 template <class Polynomial, std::size_t Corners>
@@ -22,15 +20,15 @@ struct Piece {
   Polynomial x;
   std::array<dvec2, Corners> corners;
 };
-using TensorPiece = Piece<Tensor, 4>;  // at (0, 0), (1, 0), (0, 1), (1, 1)
-using TrianglePiece = Piece<Triangle, 3>;
+using TensorPiece = Piece<VectorTensor, 4>;  // at (0, 0), (1, 0), (0, 1), (1, 1)
+using TrianglePiece = Piece<VectorTriangle, 3>;
 
 std::array<TensorPiece, 4> quarters(const TensorPiece& p) {
   const auto& c = p.corners;
-  const Tensor empty(p.x.m, p.x.n);
+  const VectorTensor empty(p.x.m, p.x.n);
   std::array<TensorPiece, 4> out;
   for (TensorPiece& q : out) q.x = empty;
-  Tensor low = empty, high = empty;
+  VectorTensor low = empty, high = empty;
   tensor_halve_u(p.x.coefficients.data(), p.x.m, p.x.n, low.coefficients.data(), high.coefficients.data());
   for (std::size_t k = 0; k < 2; ++k) {
     tensor_halve_v((k == 0 ? low : high).coefficients.data(), p.x.m, p.x.n, out[k].x.coefficients.data(),
@@ -46,7 +44,7 @@ std::array<TensorPiece, 4> quarters(const TensorPiece& p) {
 
 std::array<TrianglePiece, 4> quarters(const TrianglePiece& p) {
   std::array<TrianglePiece, 4> out;
-  for (TrianglePiece& q : out) q.x = Triangle(p.x.n);
+  for (TrianglePiece& q : out) q.x = VectorTriangle(p.x.n);
   triangle_quarter(p.x.coefficients.data(), p.x.n, out[0].x.coefficients.data(), out[1].x.coefficients.data(),
                    out[2].x.coefficients.data(), out[3].x.coefficients.data());
   const dvec2 a = p.corners[0], b = p.corners[1], c = p.corners[2];
@@ -58,22 +56,22 @@ std::array<TrianglePiece, 4> quarters(const TrianglePiece& p) {
   return out;
 }
 
-std::array<Tensor, 2> derivatives(const Tensor& x) {
-  std::array<Tensor, 2> d{Tensor(x.m - 1, x.n), Tensor(x.m, x.n - 1)};
+std::array<VectorTensor, 2> derivatives(const VectorTensor& x) {
+  std::array<VectorTensor, 2> d{VectorTensor(x.m - 1, x.n), VectorTensor(x.m, x.n - 1)};
   tensor_derivative_u(x.coefficients.data(), x.m, x.n, d[0].coefficients.data());
   tensor_derivative_v(x.coefficients.data(), x.m, x.n, d[1].coefficients.data());
   return d;
 }
 
-std::array<Triangle, 2> derivatives(const Triangle& x) {
-  std::array<Triangle, 2> d{Triangle(x.n - 1), Triangle(x.n - 1)};
+std::array<VectorTriangle, 2> derivatives(const VectorTriangle& x) {
+  std::array<VectorTriangle, 2> d{VectorTriangle(x.n - 1), VectorTriangle(x.n - 1)};
   triangle_derivative_u(x.coefficients.data(), x.n, d[0].coefficients.data());
   triangle_derivative_v(x.coefficients.data(), x.n, d[1].coefficients.data());
   return d;
 }
 
-int degree_of(const Tensor& x) { return std::max(x.m, x.n); }
-int degree_of(const Triangle& x) { return x.n; }
+int degree_of(const VectorTensor& x) { return std::max(x.m, x.n); }
+int degree_of(const VectorTriangle& x) { return x.n; }
 
 // The coefficients at the corners: values of the polynomial.
 std::array<double, 4> corner_values(const TensorPolynomial<double>& p) {
@@ -103,6 +101,7 @@ auto determinant(const Polynomial& x, double& noise) {
 
 template <class Piece>
 std::optional<Fold> fold_of(const Piece& whole) {
+  constexpr int most_pieces = 4096;
   double sign = 0.0;
   std::vector<Piece> stack{whole};
   for (int visited = 0; !stack.empty(); ++visited) {
@@ -139,12 +138,13 @@ Polynomial space_part(Polynomial x, const std::vector<dvec4>& points) {
 std::optional<Fold> fold_seen_from_origin(const Net& net) {
   if (const auto* t = std::get_if<TensorNet>(&net)) {
     if (t->m == 0 || t->n == 0) return Fold{};
-    return fold_of(TensorPiece{space_part(Tensor(t->m, t->n), t->points),
+    return fold_of(TensorPiece{space_part(VectorTensor(t->m, t->n), t->points),
                                {dvec2(0, 0), dvec2(1, 0), dvec2(0, 1), dvec2(1, 1)}});
   }
   const auto& t = std::get<TriangleNet>(net);
   if (t.n == 0) return Fold{};
-  return fold_of(TrianglePiece{space_part(Triangle(t.n), t.points), {dvec2(1, 0), dvec2(0, 1), dvec2(0, 0)}});
+  return fold_of(
+      TrianglePiece{space_part(VectorTriangle(t.n), t.points), {dvec2(1, 0), dvec2(0, 1), dvec2(0, 0)}});
 }
 
 }  // namespace rondure

@@ -41,7 +41,7 @@ bool read_line(std::FILE* in, std::string& line) {
 }
 
 // Bytes that a terminal should not see as they are become '?'.
-std::string printable(std::string_view text) {
+std::string plain_bytes(std::string_view text) {
   std::string out(text.substr(0, 120));
   for (char& c : out)
     if (c == '\t' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
@@ -68,7 +68,7 @@ CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns, 
 
 void CsvReader::fail_at(std::size_t byte, const std::string& message) const {
   const std::string caret =
-      byte < 120 ? "\n    " + printable(line_) + "\n    " + std::string(byte, ' ') + "^" : "";
+      byte < 120 ? "\n    " + plain_bytes(line_) + "\n    " + std::string(byte, ' ') + "^" : "";
   throw std::runtime_error(fmt::format("{}:{}:{}: {}{}", name_, line_number_, byte + 1, message, caret));
 }
 
@@ -135,7 +135,7 @@ bool CsvReader::next(std::vector<double>& row, std::size_t& present) {
       fail(0, fmt::format("a header must name the columns in this order: {}", fmt::join(columns_, ",")));
     if (!whole || error != std::errc() || std::isnan(value))
       fail(present,
-           fmt::format("\"{}\" must be a number, found \"{}\"", columns_[present], printable(field)));
+           fmt::format("\"{}\" must be a number, found \"{}\"", columns_[present], plain_bytes(field)));
     row[present++] = value;
     if (comma == line_.size()) break;
     at = comma + 1;

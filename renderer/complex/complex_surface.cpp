@@ -4,14 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/complex/weld.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 ExactPatch raised(const ExactPatch& patch, int degree) {
   ExactPatch out = patch;

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-Integer choose(int n, int k) {
-  Integer c = 1;
-  for (int i = 0; i < k; ++i) c = c * (n - i) / (i + 1);
-  return c;
-}
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // The Bernstein coefficients over the two halves.
 std::pair<std::vector<Exact>, std::vector<Exact>> halves(std::vector<Exact> b) {
@@ -95,7 +89,7 @@ EdgePolynomial linear(const Exact& c0, const Exact& c1) {
 }
 
 EdgePolynomial bernstein_polynomial(int n, int k) {
-  return EdgePolynomial(Exact(choose(n, k))) * power(linear(1, -1), n - k) * power(linear(0, 1), k);
+  return EdgePolynomial(Exact(exact_binomial(n, k))) * power(linear(1, -1), n - k) * power(linear(0, 1), k);
 }
 
 EdgePolynomial from_bernstein(const std::vector<Exact>& coefficients) {
@@ -113,7 +107,8 @@ std::vector<Exact> bernstein_coefficients(const EdgePolynomial& p, int degree) {
   for (int k = 0; k <= p.degree(); ++k) {
     const Exact& c = p.coefficients()[index(k)];
     if (c == 0) continue;
-    for (int j = k; j <= degree; ++j) out[index(j)] += c * Exact(choose(j, k), choose(degree, k));
+    for (int j = k; j <= degree; ++j)
+      out[index(j)] += c * Exact(exact_binomial(j, k), exact_binomial(degree, k));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "renderer/api/index.h"
 #include "renderer/complex/null_space.h"
 
 namespace rondure {
@@ -9,8 +10,6 @@ namespace {
 
 // Sorted by column, no zeros; columns are places in the order of elimination.
 using Row = std::vector<std::pair<int, Integer>>;
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 void divide_content(Row& row) {
   Integer common = 0;

@@ -1,13 +1,10 @@
 #include "renderer/complex/fit.h"
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/least_squares.h"
 
 namespace rondure {
-namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
-}  // namespace
+namespace {}  // namespace
 
 CoefficientTargets flat_targets(const SurfaceComplex& complex, int n,
                                 const std::vector<std::vector<dvec3>>& corners) {

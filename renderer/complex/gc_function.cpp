@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/bezier/triangle_keys.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 bool same(const PolygonPolynomial& a, const PolygonPolynomial& b) {
   return a.degree == b.degree && a.coefficients == b.coefficients;

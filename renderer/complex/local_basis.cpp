@@ -7,13 +7,12 @@
 #include <numeric>
 #include <set>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/least_squares.h"
 #include "renderer/complex/modular.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 using Region = std::vector<int>;  // polygons, in order
 

@@ -1,12 +1,11 @@
 #include "renderer/complex/octahedron_bases.h"
 
+#include "renderer/api/index.h"
 #include "renderer/api/patch.h"
 #include "renderer/complex/shipped.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 PolygonPolynomial quadratic(int i, int j, const Exact& coefficient) {
   PolygonPolynomial p{3, 2, std::vector<Exact>(6)};

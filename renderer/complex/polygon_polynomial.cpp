@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/api/index.h"
 #include "renderer/api/patch.h"
 
 namespace rondure {
 namespace {
 
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
-Integer choose(int n, int k) {
-  Integer c = 1;
-  for (int i = 0; i < k; ++i) c = c * (n - i) / (i + 1);
-  return c;
-}
-
 // The factor of a basis polynomial: n! / (i! j! k!), or C(n, i) C(n, j).
 Integer factor_of(int sides, int n, const std::array<int, 3>& e) {
-  return sides == 3 ? Integer(choose(n, e[0]) * choose(n - e[0], e[1]))
-                    : Integer(choose(n, e[0]) * choose(n, e[1]));
+  return sides == 3 ? Integer(exact_binomial(n, e[0]) * exact_binomial(n - e[0], e[1]))
+                    : Integer(exact_binomial(n, e[0]) * exact_binomial(n, e[1]));
 }
 
 int place_of(int sides, int n, int i, int j) {

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
 
 constexpr double two_pi = 6.28318530717958647693;
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // 2 cos(2 pi / N). On the boundary nothing has to close: corners of 90 degrees, or where that would be too
 // many of them, of a little less than a half-turn's share each, 2 cos(pi / n) < 2 - 9 / n^2.

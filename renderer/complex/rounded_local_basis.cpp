@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "renderer/api/index.h"
 #include "renderer/complex/local_basis.h"
 
 namespace rondure {
@@ -14,8 +15,6 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 using Eigen::Index;
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // Orthonormal columns that span the null space, and by how much the factor's diagonal falls behind the rank.
 struct Null {

@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "renderer/api/index.h"
 #include "renderer/complex/regular_joins.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // Glues edges whose ends are the same two of the numbered vertices. Every pair must be there at most twice.
 std::vector<Gluing> glue_by_vertices(const std::vector<std::vector<int>>& corners) {

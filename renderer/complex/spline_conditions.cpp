@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // Sum of unknowns times polynomials of s, to be 0 for every s.
 using Identity = std::map<int, EdgePolynomial>;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 int steps_from_corner(int sides, int n, int coefficient) {
   const auto e = exponents_of(sides, n, coefficient);

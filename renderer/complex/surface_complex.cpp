@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // Where a step leads: the corner, and the join, when the edge is glued.
 struct Landing {

@@ -8,6 +8,8 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
 
@@ -16,8 +18,6 @@ using glm::dvec2;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double rounding = 1e-9;
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 using ExactMap = std::array<std::array<Exact, 2>, 2>;  // entry[row][column]
 

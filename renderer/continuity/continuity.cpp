@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/continuity/side_foot.h"
 
@@ -12,10 +13,6 @@ namespace rondure {
 namespace {
 
 constexpr double degrees = 57.295779513082320876798;
-
-double angle_between(const dvec3& a, const dvec3& b) {
-  return degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 void raise(WorstAt& worst, double value, int patch, int other, const dvec3& point) {
   if (!std::isfinite(value) || (worst.patch >= 0 && value <= worst.value)) return;
@@ -79,7 +76,7 @@ class Meter {
     const double turn = seam.reversed ? 1.0 : -1.0;
     const dvec3 na = unit_normal(net(a), ua.x, ua.y), nb = turn * unit_normal(net(b), ub.x, ub.y);
     if (na == dvec3(0.0) || nb == dvec3(0.0)) return out;
-    out.jumps[0] = angle_between(na, nb);
+    out.jumps[0] = degrees * angle_between(na, nb);
     // At the ends of a side curvature is often not known.
     if (s <= 0.0 || s >= 1.0) return out;
     const Curvature ca = curvature(net(a), ua.x, ua.y), cb = curvature(net(b), ub.x, ub.y);
@@ -152,7 +149,7 @@ class Meter {
       point = jet.point;
       const dvec3 a = after.x * jet.du + after.y * jet.dv, b = before.x * jet.du + before.y * jet.dv;
       // A side without a direction there makes the sum meaningless, and raise() passes it over.
-      sum += a == dvec3(0.0) || b == dvec3(0.0) ? INFINITY : angle_between(a, b);
+      sum += a == dvec3(0.0) || b == dvec3(0.0) ? INFINITY : degrees * angle_between(a, b);
       const dvec3 n = sign(corner.patch) * unit_normal(patch, here.x, here.y);
       if (n != dvec3(0.0)) normals.emplace_back(corner.patch, n);
     }
@@ -160,7 +157,7 @@ class Meter {
     raise(out_.vertex_sum, std::abs(sum - 360.0), first, first, point);
     for (std::size_t i = 0; i < normals.size(); ++i) {
       for (std::size_t j = i + 1; j < normals.size(); ++j) {
-        const double angle = angle_between(normals[i].second, normals[j].second);
+        const double angle = degrees * angle_between(normals[i].second, normals[j].second);
         // Where there are no two sides, normals are lines.
         raise(out_.vertex, seams_.orientable ? angle : std::min(angle, 180.0 - angle), normals[i].first,
               normals[j].first, point);

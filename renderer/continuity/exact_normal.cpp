@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 Integer choose(int n, int k) {
   Integer c = 1;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/api/index.h"
+
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // A polynomial in s and t with integer coefficients: of s^i t^j at c[i * (n + 1) + j].
 struct Local {

@@ -7,14 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/box.h"
 #include "renderer/continuity/disjoint_sets.h"
 #include "renderer/continuity/side_foot.h"
 
 namespace rondure {
 namespace {
-
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 dvec2 corner_at(bool triangle, int corner) {
   static constexpr double of_triangle[3][2] = {{1, 0}, {0, 1}, {0, 0}};

@@ -7,13 +7,12 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/triangle_keys.h"
 #include "renderer/inverse_spherical/spherical_triangle.h"
 
 namespace rondure {
 namespace {
-
-std::size_t place(int n, int i, int j) { return static_cast<std::size_t>(triangle_index(n, i, j)); }
 
 // A vertex counts as coplanar when alpha + beta + gamma is 1 to rounding of the combination.
 constexpr double coplanar = 0x1p-44;
@@ -33,7 +32,7 @@ std::optional<dvec3> coplanar_vertex(const PlanarIss& s, const dvec3& direction)
 
 std::optional<std::vector<double>> reduced_side(const PlanarIss& s) {
   const int n = s.n;
-  const auto side = [&](int j) { return s.weights[place(n, 0, j)]; };
+  const auto side = [&](int j) { return s.weights[index(triangle_index(n, 0, j))]; };
   // From both ends to the middle, where the two runs must agree: w_j = (j w'_{j-1} + (n - j) w'_j) / n.
   std::vector<double> reduced(static_cast<std::size_t>(n), 0.0);
   const int half = (n - 1) / 2;
@@ -76,10 +75,12 @@ PlanarIss joined(const PlanarIss& s, const dvec3& vertex, const std::vector<doub
     }
   }
   PlanarIss out{n, {vertex, s.corners[1], s.corners[2]}, weights};
-  for (int j = 0; j <= n; ++j) out.weights[place(n, 0, j)] = s.weights[place(n, 0, j)];
+  for (int j = 0; j <= n; ++j)
+    out.weights[index(triangle_index(n, 0, j))] = s.weights[index(triangle_index(n, 0, j))];
   for (int j = 0; j < n; ++j) {
-    double w = k.x * s.weights[place(n, 1, j)] + k.y * s.weights[place(n, 0, j + 1)] +
-               k.z * s.weights[place(n, 0, j)];
+    double w = k.x * s.weights[index(triangle_index(n, 1, j))] +
+               k.y * s.weights[index(triangle_index(n, 0, j + 1))] +
+               k.z * s.weights[index(triangle_index(n, 0, j))];
     if (lower) w -= (n - 1.0) / n * excess * (*lower)[static_cast<std::size_t>(j)];
     if (!(w > 0.0)) {
       throw std::invalid_argument(
@@ -87,7 +88,7 @@ PlanarIss joined(const PlanarIss& s, const dvec3& vertex, const std::vector<doub
                       "closer to the side",
                       triangle_key_name(n, 1, j), w));
     }
-    out.weights[place(n, 1, j)] = w;
+    out.weights[index(triangle_index(n, 1, j))] = w;
   }
   return out;
 }

@@ -2,12 +2,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "renderer/api/index.h"
 #include "renderer/bezier/triangle.h"
 
 namespace rondure {
 namespace {
-
-std::size_t place(int n, int i, int j) { return static_cast<std::size_t>(triangle_index(n, i, j)); }
 
 // |u^(l)_ijk| for every step l = 0..n of the algorithm.
 std::vector<std::vector<double>> lengths_of_steps(const Iss& s, double u, double v) {
@@ -28,13 +27,13 @@ std::vector<std::vector<double>> lengths_of_steps(const Iss& s, double u, double
 double paths_from(const std::vector<std::vector<double>>& lengths, const dvec3& tau, int n, int i, int j) {
   if (n == 0) return 1.0;
   const std::size_t step = lengths.size() - 1 - static_cast<std::size_t>(n);
-  const double here = lengths[step][place(n, i, j)];
-  const int index[3] = {i, j, n - i - j};
+  const double here = lengths[step][index(triangle_index(n, i, j))];
+  const int corner_index[3] = {i, j, n - i - j};
   double sum = 0.0;
   for (int m = 0; m < 3; ++m) {
-    if (index[m] == 0) continue;
+    if (corner_index[m] == 0) continue;
     const int ni = i - (m == 0 ? 1 : 0), nj = j - (m == 1 ? 1 : 0);
-    const double alpha = tau[m] * here / lengths[step + 1][place(n - 1, ni, nj)];
+    const double alpha = tau[m] * here / lengths[step + 1][index(triangle_index(n - 1, ni, nj))];
     sum += alpha * paths_from(lengths, tau, n - 1, ni, nj);
   }
   return sum;

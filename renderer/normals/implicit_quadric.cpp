@@ -4,15 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/projective/null_vector.h"
 
 namespace rondure {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Points of the patches, in a fixed order that scatters over all of them.
 std::vector<dvec3> sampled(const std::vector<Net>& patches, std::size_t count) {

@@ -10,11 +10,11 @@ namespace rondure {
 namespace {
 
 // Halvings after which a cell that may still hold a zero counts as one.
-constexpr int deepest = 30;
+constexpr int most_halvings = 30;
 
 // A piece of the domain with its control points. Corners of a rectangle: its lowest and highest; of a
 // triangle: where u, v, w = 1.
-struct Cell {
+struct PreimageCell {
   std::vector<dvec4> points;
   dvec2 corner[3];
   int depth;
@@ -34,14 +34,14 @@ bool separated(const std::vector<dvec4>& points) {
   return std::all_of(points.begin(), points.end(), [&](const dvec4& p) { return glm::dot(sum, p) > 0.0; });
 }
 
-std::vector<Cell> parts_of(const TensorPreimage& p, const Cell& cell) {
+std::vector<PreimageCell> parts_of(const TensorPreimage& p, const PreimageCell& cell) {
   const std::size_t size = cell.points.size();
   const auto part = [&](dvec2 low, dvec2 high) {
-    return Cell{std::vector<dvec4>(size), {low, high, high}, cell.depth + 1};
+    return PreimageCell{std::vector<dvec4>(size), {low, high, high}, cell.depth + 1};
   };
   const dvec2 low = cell.corner[0], high = cell.corner[1], middle = 0.5 * (low + high);
-  std::vector<Cell> parts{part(low, middle), part({low.x, middle.y}, {middle.x, high.y}),
-                          part({middle.x, low.y}, {high.x, middle.y}), part(middle, high)};
+  std::vector<PreimageCell> parts{part(low, middle), part({low.x, middle.y}, {middle.x, high.y}),
+                                  part({middle.x, low.y}, {high.x, middle.y}), part(middle, high)};
   std::vector<dvec4> left(size), right(size);
   tensor_halve_u(cell.points.data(), p.m, p.n, left.data(), right.data());
   tensor_halve_v(left.data(), p.m, p.n, parts[0].points.data(), parts[1].points.data());
@@ -49,31 +49,31 @@ std::vector<Cell> parts_of(const TensorPreimage& p, const Cell& cell) {
   return parts;
 }
 
-std::vector<Cell> parts_of(const TrianglePreimage& p, const Cell& cell) {
+std::vector<PreimageCell> parts_of(const TrianglePreimage& p, const PreimageCell& cell) {
   const dvec2 &u = cell.corner[0], &v = cell.corner[1], &w = cell.corner[2];
   const dvec2 uv = 0.5 * (u + v), vw = 0.5 * (v + w), uw = 0.5 * (u + w);
   const auto part = [&](dvec2 a, dvec2 b, dvec2 c) {
-    return Cell{std::vector<dvec4>(cell.points.size()), {a, b, c}, cell.depth + 1};
+    return PreimageCell{std::vector<dvec4>(cell.points.size()), {a, b, c}, cell.depth + 1};
   };
-  std::vector<Cell> parts{part(u, uv, uw), part(uv, v, vw), part(uw, vw, w), part(vw, uw, uv)};
+  std::vector<PreimageCell> parts{part(u, uv, uw), part(uv, v, vw), part(uw, vw, w), part(vw, uw, uv)};
   triangle_quarter(cell.points.data(), p.n, parts[0].points.data(), parts[1].points.data(),
                    parts[2].points.data(), parts[3].points.data());
   return parts;
 }
 
-Cell whole(const TensorPreimage&) { return {{}, {dvec2(0.0), dvec2(1.0), dvec2(1.0)}, 0}; }
-Cell whole(const TrianglePreimage&) { return {{}, {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}, 0}; }
+PreimageCell whole(const TensorPreimage&) { return {{}, {dvec2(0.0), dvec2(1.0), dvec2(1.0)}, 0}; }
+PreimageCell whole(const TrianglePreimage&) { return {{}, {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}, 0}; }
 
 template <class Polynomial>
 void search(const Polynomial& p, const lvec4& mask, std::size_t limit, std::vector<dvec2>& found) {
-  std::vector<Cell> cells{whole(p)};
+  std::vector<PreimageCell> cells{whole(p)};
   for (const lvec4& c : p.coefficients) cells[0].points.emplace_back(c * mask);
   for (int count = 0; !cells.empty() && found.size() < limit && count <= most_cells; ++count) {
-    const Cell cell = std::move(cells.back());
+    const PreimageCell cell = std::move(cells.back());
     cells.pop_back();
     if (separated(cell.points)) continue;
-    if (cell.depth < deepest && count < most_cells) {
-      for (Cell& part : parts_of(p, cell)) cells.push_back(std::move(part));
+    if (cell.depth < most_halvings && count < most_cells) {
+      for (PreimageCell& part : parts_of(p, cell)) cells.push_back(std::move(part));
       continue;
     }
     const dvec2 at = 0.5 * (cell.corner[0] + cell.corner[1]);

@@ -28,9 +28,9 @@ std::vector<Margin> margins_of(const SphericalQuad& quad) {
   return margins;
 }
 
-class Search {
+class CentreSearch {
  public:
-  explicit Search(std::vector<Margin> margins) : margins_(std::move(margins)) {}
+  explicit CentreSearch(std::vector<Margin> margins) : margins_(std::move(margins)) {}
 
   void add(const lvec3& c) {
     if (!(glm::dot(c, c) > 0)) return;
@@ -74,7 +74,7 @@ class Search {
 
 lvec3 best_centre(const SphericalQuad& quad) {
   const std::vector<Margin> m = margins_of(quad);
-  Search search(m);
+  CentreSearch search(m);
   for (std::size_t i = 0; i < m.size(); ++i) {
     search.add(m[i].slope);
     for (std::size_t j = 0; j < i; ++j) {

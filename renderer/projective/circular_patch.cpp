@@ -30,9 +30,10 @@ Complex around(const Sides<N>& sides) {
 }
 
 // exp of i times the argument over n: the n-th root with the smallest argument, or the next one.
-Complex root_of(const Complex& h, long double n, Root which = Root::least) {
+Complex root_of(const Complex& h, long double n, HolonomyRoot which = HolonomyRoot::least) {
   const long double argument = std::arg(h), turn = 2 * std::numbers::pi_v<long double>;
-  return std::polar(1.0L, (which == Root::least ? argument : argument - std::copysign(turn, argument)) / n);
+  return std::polar(1.0L,
+                    (which == HolonomyRoot::least ? argument : argument - std::copysign(turn, argument)) / n);
 }
 
 // The corners on one line of phases, with the defect of the holonomy spread over the sides.
@@ -67,7 +68,7 @@ TensorPreimage bilinear_preimage(const SphericalQuad& quad, long double shape) {
   return std::get<TensorPreimage>(preimage_at(bilinear_family(quad), {{shape}}));
 }
 
-PreimageFamily linear_quadratic_family(const SphericalQuad& quad, Root root) {
+PreimageFamily linear_quadratic_family(const SphericalQuad& quad, HolonomyRoot root) {
   const auto [corner, g] = sides_of(quad.arc);
   const Complex h = g[0] * g[1] * g[2] * g[3];
   // The straight sides u = 0 and u = 1 from v = 0; times a linear factor they end in phases that the side
@@ -87,11 +88,11 @@ PreimageFamily linear_quadratic_family(const SphericalQuad& quad, Root root) {
   return {net, 3, 1, {{std::arg(c), {1}}, {std::arg(d), {1}}}};
 }
 
-TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root) {
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, HolonomyRoot root) {
   return std::get<TensorPreimage>(preimage_at(linear_quadratic_family(quad, root), {}));
 }
 
-PreimageFamily quadratic_linear_family(const SphericalQuad& quad, Root root) {
+PreimageFamily quadratic_linear_family(const SphericalQuad& quad, HolonomyRoot root) {
   // The same with corner 1 first: its (u, v) are our (v, 1 - u).
   const auto& arc = quad.arc;
   PreimageFamily family = linear_quadratic_family({{arc[1], arc[2], arc[3], arc[0]}}, root);
@@ -112,7 +113,7 @@ PreimageFamily quadratic_linear_family(const SphericalQuad& quad, Root root) {
   return family;
 }
 
-TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root) {
+TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, HolonomyRoot root) {
   return std::get<TensorPreimage>(preimage_at(quadratic_linear_family(quad, root), {}));
 }
 
@@ -129,7 +130,7 @@ TrianglePreimage linear_preimage(const SphericalTriangle& triangle) {
   return std::get<TrianglePreimage>(preimage_at(linear_family(triangle), {}));
 }
 
-PreimageFamily quadratic_family(const SphericalTriangle& triangle, Root root) {
+PreimageFamily quadratic_family(const SphericalTriangle& triangle, HolonomyRoot root) {
   const auto [corner, g] = sides_of(triangle.arc);
   // Each straight side times a linear factor from 1 to h, so that three of them close.
   const Complex h = std::conj(root_of(g[0] * g[1] * g[2], 3, root));
@@ -151,7 +152,7 @@ PreimageFamily quadratic_family(const SphericalTriangle& triangle, Root root) {
   return {net, 3, 2, {{even, {1, 0}}, {even, {0, 1}}, {even, {-1, -1}}}};
 }
 
-TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root) {
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, HolonomyRoot root) {
   return std::get<TrianglePreimage>(preimage_at(quadratic_family(triangle, root), {}));
 }
 

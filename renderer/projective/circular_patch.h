@@ -42,19 +42,19 @@ std::optional<TensorPreimage> bilinear_preimage_by_planes(const SphericalQuad& q
 // decide which one this is, and it makes another patch, which lies on the other side of the arcs: where they
 // run round one circle, or join smoothly, either may be the one that is wanted. `other` is that of the
 // argument less a turn, or more.
-enum class Root { least, other };
+enum class HolonomyRoot { least, other };
 
 // Of degree (1, 2): the patch of theorem 3.10, for any arcs. The sides at v = 0 and v = 1 are straight, those
 // at u = 0 and u = 1 conics, each a straight line l(v) times a linear factor c(v). Free are three ratios,
 // |b00| |b12| / (|b10| |b02|) and |c(1)| |l(0)| / (|c(0)| |l(1)|) of the side u = 0 and of u = 1, and a turn:
 // what the phases of both factors change by beyond an even division of the holonomy.
-PreimageFamily linear_quadratic_family(const SphericalQuad& quad, Root root = Root::least);
-TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, Root root = Root::least);
+PreimageFamily linear_quadratic_family(const SphericalQuad& quad, HolonomyRoot root = HolonomyRoot::least);
+TensorPreimage linear_quadratic_preimage(const SphericalQuad& quad, HolonomyRoot root = HolonomyRoot::least);
 
 // The same of degree (2, 1), with conics at v = 0 and v = 1: the ratios are |b00| |b21| / (|b20| |b01|) and
 // those of the sides v = 0 and v = 1, along u.
-PreimageFamily quadratic_linear_family(const SphericalQuad& quad, Root root = Root::least);
-TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, Root root = Root::least);
+PreimageFamily quadratic_linear_family(const SphericalQuad& quad, HolonomyRoot root = HolonomyRoot::least);
+TensorPreimage quadratic_linear_preimage(const SphericalQuad& quad, HolonomyRoot root = HolonomyRoot::least);
 
 // Of degree 1, for a holonomy of 1 or nearly: nothing is free.
 PreimageFamily linear_family(const SphericalTriangle& triangle);
@@ -63,7 +63,8 @@ TrianglePreimage linear_preimage(const SphericalTriangle& triangle);
 // Of degree 2, for any arcs. Free are a ratio of each side, as of those of linear_quadratic_family, from
 // corner k to corner k + 1; and two turns: what the phases of the first two sides change by beyond an even
 // division. The third makes up for them.
-PreimageFamily quadratic_family(const SphericalTriangle& triangle, Root root = Root::least);
-TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle, Root root = Root::least);
+PreimageFamily quadratic_family(const SphericalTriangle& triangle, HolonomyRoot root = HolonomyRoot::least);
+TrianglePreimage quadratic_preimage(const SphericalTriangle& triangle,
+                                    HolonomyRoot root = HolonomyRoot::least);
 
 }  // namespace rondure

@@ -11,7 +11,9 @@
 namespace rondure {
 namespace {
 
-constexpr auto determinant = [](const lvec4& p, const lvec4& q) { return det(to_spinor(p), to_spinor(q)); };
+constexpr auto spinor_determinant = [](const lvec4& p, const lvec4& q) {
+  return det(to_spinor(p), to_spinor(q));
+};
 
 // -4 Im(conj(a) b), the Jacobian from the determinants of the preimage with its derivatives.
 template <class Polynomial>
@@ -117,7 +119,7 @@ Cell whole(const TrianglePolynomial<long double>&) { return {{}, {{1.0, 0.0}, {0
 // Whether the polynomial is positive inside: no Bernstein coefficient is negative on any piece. Rounding is
 // relative to the largest coefficient.
 template <class Polynomial>
-Regularity positive(const Polynomial& p) {
+PreimageRegularity positive(const Polynomial& p) {
   constexpr int deepest = 16;
   std::vector<Cell> cells{whole(p)};
   double largest = 0.0;
@@ -126,7 +128,7 @@ Regularity positive(const Polynomial& p) {
     largest = std::max(largest, std::abs(cells[0].c.back()));
   }
   const double noise = 1e-13 * largest;
-  Regularity result{largest > 0.0, middle_of(p, cells[0])};
+  PreimageRegularity result{largest > 0.0, middle_of(p, cells[0])};
   while (result.regular && !cells.empty()) {
     const Cell cell = std::move(cells.back());
     cells.pop_back();
@@ -142,8 +144,8 @@ Regularity positive(const Polynomial& p) {
 // The determinants of the derivatives in u and in v with the preimage itself.
 auto determinants(const TensorPreimage& p) {
   // det(psi_u, psi) = m det(high part, low part): one degree less than the product, twice.
-  auto in_u = multiply(part(p, 1, 0, 1, 0), part(p, 1, 0, 0, 0), determinant);
-  auto in_v = multiply(part(p, 0, 1, 0, 1), part(p, 0, 1, 0, 0), determinant);
+  auto in_u = multiply(part(p, 1, 0, 1, 0), part(p, 1, 0, 0, 0), spinor_determinant);
+  auto in_v = multiply(part(p, 0, 1, 0, 1), part(p, 0, 1, 0, 0), spinor_determinant);
   for (Complex& c : in_u.coefficients) c *= p.m;
   for (Complex& c : in_v.coefficients) c *= p.n;
   return std::pair(std::move(in_u), std::move(in_v));
@@ -151,8 +153,8 @@ auto determinants(const TensorPreimage& p) {
 
 auto determinants(const TrianglePreimage& p) {
   const TrianglePreimage in_w = part(p, 0, 0);
-  auto in_u = multiply(difference(part(p, 1, 0), in_w), p, determinant);
-  auto in_v = multiply(difference(part(p, 0, 1), in_w), p, determinant);
+  auto in_u = multiply(difference(part(p, 1, 0), in_w), p, spinor_determinant);
+  auto in_v = multiply(difference(part(p, 0, 1), in_w), p, spinor_determinant);
   for (Complex& c : in_u.coefficients) c *= p.n;
   for (Complex& c : in_v.coefficients) c *= p.n;
   return std::pair(std::move(in_u), std::move(in_v));
@@ -180,12 +182,12 @@ TrianglePolynomial<long double> orientation(const TrianglePreimage& p) {
   return jacobian(in_u, in_v);
 }
 
-Regularity regularity(const Preimage& preimage) {
+PreimageRegularity regularity(const Preimage& preimage) {
   return std::visit(
       [](const auto& p) {
         const auto [in_u, in_v] = determinants(p);
         const auto j = jacobian(in_u, in_v);
-        Regularity result = positive(j);
+        PreimageRegularity result = positive(j);
         result.flat = !(largest_of(j) > flat_angle * 4 * largest_of(in_u) * largest_of(in_v));
         result.regular = result.regular && !result.flat;
         return result;

@@ -10,11 +10,11 @@ namespace rondure {
 TensorPolynomial<long double> orientation(const TensorPreimage& preimage);
 TrianglePolynomial<long double> orientation(const TrianglePreimage& preimage);
 
-struct Regularity {
+struct PreimageRegularity {
   bool regular;       // J > 0 certainly, but for corners and edges where it may be zero
   dvec2 worst;        // otherwise: parameters where it is not, or cannot be told
   bool flat = false;  // J vanishes everywhere, but for rounding: the image is a curve, or a point
 };
-Regularity regularity(const Preimage& preimage);
+PreimageRegularity regularity(const Preimage& preimage);
 
 }  // namespace rondure

@@ -198,9 +198,9 @@ Shape shape_at(const std::array<double, variables>& x) {
   return shape;
 }
 
-class Search {
+class ShapeSearch {
  public:
-  explicit Search(const PreimageFamily& family)
+  explicit ShapeSearch(const PreimageFamily& family)
       : family_(family), weights_(std::visit([](const auto& net) { return weights_of(net); }, family.net)) {}
 
   // All ratios decide whether there is a shape; then one is preferred whose ratios are near 1, as far from it
@@ -306,6 +306,6 @@ class Search {
 
 }  // namespace
 
-PositiveShape positive_shape(const PreimageFamily& family) { return Search(family).run(); }
+PositiveShape positive_shape(const PreimageFamily& family) { return ShapeSearch(family).run(); }
 
 }  // namespace rondure

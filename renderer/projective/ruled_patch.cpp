@@ -9,9 +9,9 @@ namespace rondure {
 namespace {
 
 // Numbers below this, of vectors of length 1, are zero.
-constexpr long double nothing = 1e-12L;
+constexpr long double coincident = 1e-12L;
 
-long double det(const lvec2& p, const lvec2& q) { return p.x * q.y - p.y * q.x; }
+long double plane_det(const lvec2& p, const lvec2& q) { return p.x * q.y - p.y * q.x; }
 
 RuledPoint times(const lvec2& factor, const RuledPoint& p) { return {factor.x * p.a, factor.y * p.b}; }
 
@@ -56,13 +56,15 @@ RuledPoint ruled_preimage(const lvec4& x) {
 
 SectionArc section_through(const RuledPoint& p, const RuledPoint& r, const RuledPoint& q) {
   // Both coordinates point to r at t = 1/2.
-  return balanced(-quotient(det(r.a, p.a), det(r.a, q.a)), -quotient(det(r.b, p.b), det(r.b, q.b)));
+  return balanced(-quotient(plane_det(r.a, p.a), plane_det(r.a, q.a)),
+                  -quotient(plane_det(r.b, p.b), plane_det(r.b, q.b)));
 }
 
 std::optional<SectionArc> section_in_plane(const RuledPoint& p, const RuledPoint& q, const lvec4& h,
                                            const lvec4& weight) {
   lvec2 arc(glm::dot(p.a, q.a) < 0 ? -1 : 1, glm::dot(p.b, q.b) < 0 ? -1 : 1);
-  const bool same_a = std::abs(det(p.a, q.a)) < nothing, same_b = std::abs(det(p.b, q.b)) < nothing;
+  const bool same_a = std::abs(plane_det(p.a, q.a)) < coincident,
+             same_b = std::abs(plane_det(p.b, q.b)) < coincident;
   lvec2 other = -arc;
   if (same_a || same_b) {
     // The line's own coordinate must not change its sign.
@@ -70,7 +72,7 @@ std::optional<SectionArc> section_in_plane(const RuledPoint& p, const RuledPoint
     if (same_b) other.y = arc.y;
   } else {
     const long double s = glm::dot(h, ruled_point(p.a, q.b)), t = -glm::dot(h, ruled_point(q.a, p.b));
-    const long double least = nothing * glm::length(h);
+    const long double least = coincident * glm::length(h);
     if (!(std::abs(s) > least) || !(std::abs(t) > least)) return std::nullopt;
     // a.x dot(h, q.a p.b) + a.y dot(h, p.a q.b) = 0
     arc = balanced(s, t);
@@ -142,7 +144,7 @@ bool is_regular_ruled(const TensorPreimage& p) {
   };
   difference(a, a_u, 1, 0), difference(a, a_v, 0, 1);
   difference(b, b_u, 1, 0), difference(b, b_v, 0, 1);
-  const auto turn = [](const Pairs& f, const Pairs& g) { return multiply(f, g, det); };
+  const auto turn = [](const Pairs& f, const Pairs& g) { return multiply(f, g, plane_det); };
   const auto jacobian =
       add_scaled(multiply(turn(a_u, a), turn(b_v, b)), multiply(turn(a_v, a), turn(b_u, b)), -1.0L);
   const auto [low, high] = std::minmax_element(jacobian.coefficients.begin(), jacobian.coefficients.end());

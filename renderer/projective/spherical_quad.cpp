@@ -16,7 +16,7 @@ constexpr long double degrees = 180 / std::numbers::pi_v<long double>;
 // Corners are doubles, or sums of roots: angles closer than this to a limit are taken to be at it.
 constexpr long double tolerance = 1e-6L;
 
-constexpr long double least_weight = 1e-9L;
+constexpr long double least_corner_weight = 1e-9L;
 
 std::string number(long double angle) { return fmt::format("{:.9g}", static_cast<double>(angle)); }
 
@@ -94,7 +94,7 @@ QuadShape shape_of(const SphericalQuad& quad, const lvec3& centre) {
 std::optional<QuadDefect> defect_of(const QuadShape& shape, bool straight_corners) {
   if (auto defect = corner_defect(shape, straight_corners)) return defect;
   for (std::size_t k = 0; k < 4; ++k) {
-    if (!(shape.weight[k] > least_weight))
+    if (!(shape.weight[k] > least_corner_weight))
       return QuadDefect{Part::corner, k,
                         fmt::format("corners[{}] lies where one projects from, opposite the centre", k)};
   }

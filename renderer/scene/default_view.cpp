@@ -1,23 +1,13 @@
 #include "renderer/scene/default_view.h"
 
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
+
+#include "renderer/bezier/box.h"
 
 namespace rondure {
 namespace {
-
-struct Box {
-  dvec3 low{std::numeric_limits<double>::infinity()};
-  dvec3 high{-std::numeric_limits<double>::infinity()};
-
-  void add(const dvec3& point) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-};
 
 void add_surface(Box& box, const Surface& surface) {
   if (surface.ellipsoid) {
@@ -42,7 +32,7 @@ void add_surface(Box& box, const Surface& surface) {
 Camera view_of(const std::vector<SceneObject>& objects, double aspect) {
   Box box;
   for (const SceneObject& object : objects) add_surface(box, object.traced.surface);
-  const dvec3 center = 0.5 * box.low + 0.5 * box.high;
+  const dvec3 center = box.center();
   const double radius = 0.5 * glm::length(box.high - box.low);
   if (!std::isfinite(radius) || !(radius > 0.0) || !std::isfinite(glm::length(center)))
     return default_camera();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/normals/estimator.h"
@@ -33,10 +34,6 @@ struct Worst {
     normal = std::max(normal, angle);
   }
 };
-
-double angle_between(const dvec3& a, const dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 double line_distance(const dvec3& p, const dvec3& origin, const dvec3& direction) {
   return glm::length(glm::cross(p - origin, glm::normalize(direction)));

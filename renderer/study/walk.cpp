@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/sampling/warps.h"
 
@@ -14,10 +15,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-double angle_between(const dvec3& a, const dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 bool inside(const Net& net, dvec2 p) {
   if (p.x < 0.0 || p.y < 0.0) return false;
