@@ -72,7 +72,7 @@ TensorNet stereographic_square() {
 }
 
 // The disk of Table 1 in the parameters of that square.
-PlanarMap<Poly<double>> disk() {
+PlanarMap<Poly<double>> unit_disk() {
   const double h = std::sqrt(0.5);
   const double x[9] = {2, 2 * h, 0, 2 * h, 0, -2 * h, 0, -2 * h, -2},
                y[9] = {0, 2 * h, 2, -2 * h, 0, 2 * h, -2, -2 * h, 0};
@@ -109,7 +109,7 @@ TEST_CASE("three routes lead to one net, and products of Bernstein polynomials l
     TensorNet f;
     PlanarMap<Poly<double>> g;
     int degree;
-  } cases[] = {{"disk in the stereographic square", stereographic_square(), disk(), 8},
+  } cases[] = {{"disk in the stereographic square", stereographic_square(), unit_disk(), 8},
                {"curved quadrilateral in a cube's face", cube_face(), curved_quad(), 16}};
   for (const auto& c : cases) {
     const Coordinates<Big> exact = by_interpolation(c.f, in_big(c.g));
@@ -132,7 +132,7 @@ TEST_CASE("three routes lead to one net, and products of Bernstein polynomials l
 
 TEST_CASE("the routes agree with the printed tables", "[bezier][routes]") {
   // Table 2 from the disk of Table 1: composed with s as a patch of its own, it comes with the factor W^2.
-  const Coordinates<double> products = by_products(stereographic_square(), disk());
+  const Coordinates<double> products = by_products(stereographic_square(), unit_disk());
   const nlohmann::json net = reference_entry(reference_data("cobb_nets.json"), "hemisphere")["net"];
   Coordinates<double> table;
   for (std::size_t c = 0; c < 4; ++c) {
@@ -141,7 +141,7 @@ TEST_CASE("the routes agree with the printed tables", "[bezier][routes]") {
       for (int j = 0; j <= 4; ++j) table[c].at(i, j) = number(net[i][j][c]);
     }
   }
-  const Poly<double> ww = multiply(disk().w, disk().w);
+  const Poly<double> ww = multiply(unit_disk().w, unit_disk().w);
   Coordinates<Big> expected;
   double scale = 0.0;
   for (std::size_t c = 0; c < 4; ++c) expected[c] = converted<Big>(multiply(ww, table[c]));
@@ -151,8 +151,8 @@ TEST_CASE("the routes agree with the printed tables", "[bezier][routes]") {
   }
   // Both sides are rounded, some products deep.
   CHECK(error(products, expected) < 32.0);
-  CHECK(error(by_interpolation(stereographic_square(), disk()), expected) < interpolation_bound(8));
-  CHECK(error(by_powers(stereographic_square(), disk()), expected) < powers_bound(8));
+  CHECK(error(by_interpolation(stereographic_square(), unit_disk()), expected) < interpolation_bound(8));
+  CHECK(error(by_powers(stereographic_square(), unit_disk()), expected) < powers_bound(8));
 }
 
 }  // namespace rondure

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tube.h"
 #include "tests/bezier/random_nets.h"
@@ -12,8 +13,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double eps = 2.2204460492503131e-16;
 
 // The true offset is what lies at the radius from some foot of a perpendicular. How much `point` is off from
 // the nearest of these, and which way out is there.
@@ -120,9 +119,9 @@ TEST_CASE("tubes along circular arcs and lines are exact", "[bezier]") {
         REQUIRE((net.m == 2 && net.n == 2));
         const dvec3 p = net_point(net, make.uniform(0.0, 1.0), make.uniform(0.0, 1.0)) - centre;
         const double up = glm::dot(p, glm::cross(x, y)), out = glm::length(p - up * glm::cross(x, y)) - 1.0;
-        // The circle's centre is found from points that are good to about 4 eps / (smallest weight), 0.02 for
-        // the longest arc, and amplified by (1 / angle)^2 for the shortest.
-        worst.add(std::abs(std::hypot(up, out) - radius), 4000.0 * eps,
+        // The circle's centre is found from points that are good to about 4 epsilon / (smallest weight), 0.02
+        // for the longest arc, and amplified by (1 / angle)^2 for the shortest.
+        worst.add(std::abs(std::hypot(up, out) - radius), 4000.0 * epsilon,
                   [&] { return fmt::format("{} radians", angle); });
       }
       CHECK(glm::distance(tube.start, std::sin(half) * x + std::cos(half) * y) < 1e-12);

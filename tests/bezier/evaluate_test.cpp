@@ -1,8 +1,7 @@
 // Evaluation of nets of degree 1 to 12 against the definition in 50 digits.
 #include <fmt/format.h>
 
-#include <limits>
-
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/intersect/cell.h"
@@ -16,12 +15,12 @@ namespace {
 
 using oracle::Big;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-// A basis function is good to (n + 2) eps; a sum over a few terms adds about one eps a level. Derivatives of
-// order k sum differences of control points with factors up to (2 n)^k. Outside [0, 1] by 1% the sum of |B_i|
-// is below 1.02^24 < 1.7. Control points are below 1.5.
-double tolerance(int degree, int order) { return 2.6 * (degree + 8) * eps * std::pow(2.0 * degree, order); }
+// A basis function is good to (n + 2) epsilon; a sum over a few terms adds about one epsilon a level.
+// Derivatives of order k sum differences of control points with factors up to (2 n)^k. Outside [0, 1] by 1%
+// the sum of |B_i| is below 1.02^24 < 1.7. Control points are below 1.5.
+double tolerance(int degree, int order) {
+  return 2.6 * (degree + 8) * epsilon * std::pow(2.0 * degree, order);
+}
 
 template <class N>
 void compare(const N& net, int degree, double u, double v, const FirstOrder<dvec4>& f,

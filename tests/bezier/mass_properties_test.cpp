@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/patch_integrals.h"
 #include "renderer/bezier/product.h"
 #include "renderer/bezier/rational.h"
@@ -24,7 +25,6 @@ namespace rondure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double eps = 0x1p-52;
 
 Surface moved(Surface surface, const dmat4& map) {
   for (Net& net : surface.patches) net = transformed(net, map);
@@ -94,8 +94,9 @@ TEST_CASE("tilings have the area, volume and inertia of the sphere", "[bezier][m
         worst.add(error / size, 1e-12, [&] { return fmt::format("{} of {}: {}", what, text, error / size); });
         worst.add(bound / size, 1e-12,
                   [&] { return fmt::format("bound, {} of {}: {}", what, text, bound / size); });
-        // The bound is true; the net itself is off by an eps of the radius, and the expected value rounded.
-        bounds.add(error, bound + 4 * eps * size,
+        // The bound is true; the net itself is off by an epsilon of the radius, and the expected value
+        // rounded.
+        bounds.add(error, bound + 4 * epsilon * size,
                    [&] { return fmt::format("{} of {}: {}", what, text, error); });
       };
       add(std::abs(mass.shell.measure - area), mass.shell.measure_error, area, "area");
@@ -148,7 +149,7 @@ TEST_CASE("ellipsoids in closed form and in patches agree", "[bezier][mass]") {
         mass_properties(moved(build_family(R"({"type": "sphere_tiling", "topology": "cube"})"), dmat4(map)));
     const double extent = std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])});
     const auto add = [&](double error, double bound, const char* what) {
-      worst.add(error, bound + 16 * eps * extent,
+      worst.add(error, bound + 16 * epsilon * extent,
                 [&] { return fmt::format("{}: {} of {}", what, error, bound); });
     };
     add(std::abs(exact.shell.measure - tiled.shell.measure),
@@ -277,7 +278,7 @@ TEST_CASE("rational patches agree with another quadrature, and bounds hold when 
     };
     const PatchIntegrals fine = integrate_patch(net, dvec3(0.0), {1e-14, 1.0, 4000});
     const auto add = [&](double error, double bound, const char* what) {
-      // The other quadrature is good to about 1e-13: integrands near 1 with some tens of eps each.
+      // The other quadrature is good to about 1e-13: integrands near 1 with some tens of epsilon each.
       worst.add(error, bound + 1e-13, [&] { return fmt::format("{} of net {}: {}", what, k, error); });
     };
     add(std::abs(static_cast<double>(fine.area.total) - integral(area)), fine.area_error[0], "area");

@@ -5,17 +5,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "tests/bezier/random_nets.h"
 #include "tests/catch.h"
 #include "tests/worst_case.h"
 
 namespace rondure {
-namespace {
-
-constexpr double eps = 2.2204460492503131e-16;
-
-}  // namespace
 
 TEST_CASE("a curve is evaluated as a net that does not depend on v", "[bezier]") {
   NetMaker make(311);
@@ -33,7 +29,7 @@ TEST_CASE("a curve is evaluated as a net that does not depend on v", "[bezier]")
       const CurveJet jet = curve_jet(curve, t);
       const SurfaceJet expected = surface_jet(net, t, 0.5);
       // Differences of coefficients of size 2 to 4, times n and n (n - 1), over weights of 1/2 at least.
-      const double n = degree, size = 32.0 * eps * n;
+      const double n = degree, size = 32.0 * epsilon * n;
       const auto add = [&](const dvec3& a, const dvec3& b, double scale, const char* what) {
         worst.add(glm::length(a - b), size * scale,
                   [&] { return fmt::format("{} of degree {}", what, degree); });
@@ -59,7 +55,7 @@ TEST_CASE("lines of a net are curves", "[bezier]") {
       const RationalCurve curve = curve_on(net, from, to);
       for (const double t : {0.0, 0.3, 1.0}) {
         const dvec2 at = from + t * (to - from);
-        worst.add(glm::length(curve_point(curve, t) - net_point(net, at.x, at.y)), 256.0 * eps,
+        worst.add(glm::length(curve_point(curve, t) - net_point(net, at.x, at.y)), 256.0 * epsilon,
                   [&] { return fmt::format("trial {} at {}", trial, t); });
       }
     };

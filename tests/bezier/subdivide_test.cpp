@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "renderer/bezier/elevate.h"
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 #include "tests/bezier/random_nets.h"
@@ -14,11 +14,9 @@
 namespace rondure {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-// De Casteljau in [0, 1] adds at most 1.5 eps a step to coefficients below 1.5, and there are m + n steps;
-// the two evaluations add (degree + 8) eps each. Derivatives multiply that by twice the degree.
-double tolerance(int degree) { return 4.0 * (degree + 8) * eps; }
+// De Casteljau in [0, 1] adds at most 1.5 epsilon a step to coefficients below 1.5, and there are m + n
+// steps; the two evaluations add (degree + 8) epsilon each. Derivatives multiply that by twice the degree.
+double tolerance(int degree) { return 4.0 * (degree + 8) * epsilon; }
 
 double length(const dvec4& p) {
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(p.w)});
@@ -79,7 +77,7 @@ TEST_CASE("a net survives extrapolation and back", "[bezier]") {
     worst = std::max(worst, length(net.points[k] - back.points[k]));
   // Extrapolation to three and four times the range grows coefficients by up to 5^4 7^3, and their errors
   // too.
-  CHECK(worst < 1e5 * 8.0 * eps);
+  CHECK(worst < 1e5 * 8.0 * epsilon);
 }
 
 TEST_CASE("restricted and split triangles are the original", "[bezier]") {

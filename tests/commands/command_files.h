@@ -41,6 +41,13 @@ inline std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
+// A command run in a folder.
+inline ProcessResult run_in(const std::string& folder, const std::vector<std::string>& arguments) {
+  ProcessOptions options;
+  options.folder = folder;
+  return run_rondure(arguments, options);
+}
+
 inline double number_of(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
 
 inline std::vector<std::string> names_in(const std::string& folder) {

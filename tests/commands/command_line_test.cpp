@@ -15,12 +15,6 @@ namespace {
 
 const std::string ball = R"({ "objects": [ { "type": "sphere_tiling" } ] })";
 
-ProcessResult run_in(const std::string& folder, std::vector<std::string> arguments) {
-  ProcessOptions options;
-  options.folder = folder;
-  return run_rondure(std::move(arguments), options);
-}
-
 TEST_CASE("a command line that makes no sense gets one message and exit code 1", "[commands]") {
   struct Row {
     std::vector<std::string> arguments;

@@ -12,7 +12,7 @@
 namespace rondure {
 namespace {
 
-ProcessResult eval(const std::string& folder, const std::string& table) {
+ProcessResult eval_at(const std::string& folder, const std::string& table) {
   ProcessOptions options;
   options.folder = folder;
   options.input = table;
@@ -34,7 +34,7 @@ TEST_CASE("eval gives points, derivatives, normals and curvatures of the sphere"
       for (int i = 0; i <= 8; ++i)
         for (int j = 0; j <= 8; ++j, ++rows)
           table += fmt::format("{},{},{},{}\n", surface, patch, i / 8.0, j / 8.0);
-  const ProcessResult result = eval(folder, table);
+  const ProcessResult result = eval_at(folder, table);
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   const std::vector<std::string> lines = lines_of(result.out);
@@ -100,12 +100,12 @@ TEST_CASE("eval points at what is wrong with a table", "[command]") {
       {"0,0,0.5,0.5,1", "1:13: expected 4 columns at most (surface,patch,u,v)"},
   };
   for (const Case& wrong : cases) {
-    const ProcessResult result = eval(folder, wrong.row + "\n");
+    const ProcessResult result = eval_at(folder, wrong.row + "\n");
     CHECK(lines_of(result.err).at(0) == "rondure: error: standard input:" + wrong.message);
     CHECK(result.exit_code == 1);
   }
   // The triangle's own values: x = u, y = v.
-  const ProcessResult flat = eval(folder, "2,0,0.25,0.5\n");
+  const ProcessResult flat = eval_at(folder, "2,0,0.25,0.5\n");
   CHECK(lines_of(flat.out).at(1).starts_with("2,0,0.25,0.5,0.25,0.5,0,1,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,1,"));
 }
 

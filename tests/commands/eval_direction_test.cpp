@@ -13,7 +13,7 @@
 namespace rondure {
 namespace {
 
-ProcessResult eval(const std::string& folder, const std::string& table) {
+ProcessResult eval_towards(const std::string& folder, const std::string& table) {
   ProcessOptions options;
   options.folder = folder;
   options.input = table;
@@ -57,7 +57,7 @@ TEST_CASE("eval --direction agrees with equations 20 and 21 on a closed model", 
   for (int surface = 0; surface < 3; ++surface)
     for (const dvec3& d : directions)
       table += fmt::format("{},{:.17g},{:.17g},{:.17g}\n", surface, d.x, d.y, d.z);
-  const ProcessResult result = eval(folder, table);
+  const ProcessResult result = eval_towards(folder, table);
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   const std::vector<std::string> lines = lines_of(result.out);
@@ -107,8 +107,8 @@ TEST_CASE("eval --direction says where there is nothing, and where there is no f
         { "kind": "tensor", "degree": [1, 1], "net": [ [ [-1, -1, 3, 1], [-1, 1, 3, 1] ], [ [1, -1, 3, 1], [1, 1, 3, 1] ] ] } ] },
     { "type": "bezier", "patches": [
         { "kind": "tensor", "degree": [1, 1], "net": [ [ [-1, -1, 0, 1], [-1, 1, 0, 1] ], [ [1, -1, 0, 1], [1, 1, 0, 1] ] ] } ] } ] })");
-  const ProcessResult nothing =
-      eval(folder, "0,-1,1,1\n1,0,0,-1\n2,1,0,0\n2,0.9,0,1\n1,0,0,-1e-308\n1,0,0,-5e-324\n1,0,0,-1e308\n");
+  const ProcessResult nothing = eval_towards(
+      folder, "0,-1,1,1\n1,0,0,-1\n2,1,0,0\n2,0.9,0,1\n1,0,0,-1e-308\n1,0,0,-5e-324\n1,0,0,-1e308\n");
   INFO(nothing.err);
   const std::vector<std::string> lines = lines_of(nothing.out);
   REQUIRE(lines.size() == 8);
@@ -132,7 +132,7 @@ TEST_CASE("eval --direction says where there is nothing, and where there is no f
        "near (u, v) = (0.3333, 0.3333)"},
   };
   for (const auto& [row, message] : cases) {
-    const ProcessResult wrong = eval(folder, std::string(row) + "\n");
+    const ProcessResult wrong = eval_towards(folder, std::string(row) + "\n");
     CHECK(lines_of(wrong.err).at(0) == std::string("rondure: error: standard input:") + message);
     CHECK(wrong.exit_code == 1);
   }

@@ -16,10 +16,6 @@
 namespace rondure {
 namespace {
 
-ProcessResult run_in(const std::string& folder, std::vector<std::string> arguments) {
-  return run_rondure(std::move(arguments), {folder, {}, ""});
-}
-
 // The first line is "rondure: error: " and `message` (or begins so), nothing else is said, and no file
 // appears.
 void check_refused(const std::string& folder, const std::vector<std::string>& arguments,

@@ -1,35 +1,22 @@
 #include <filesystem>
-#include <set>
 
 #include "tests/catch.h"
+#include "tests/commands/command_files.h"
 #include "tests/paths.h"
 #include "tests/process.h"
 
 namespace rondure {
 namespace {
 
-const char* scene = R"({ "film": { "resolution": [40, 30] }, "sampling": { "spp": 8 },
+const char* const small_ball = R"({ "film": { "resolution": [40, 30] }, "sampling": { "spp": 8 },
   "materials": { "m": { "albedo": 0.7 } }, "lights": [ { "type": "constant" } ],
   "objects": [ { "type": "sphere_tiling", "topology": "cube", "material": "m" } ] })";
 
 // A fresh folder that holds ball.json.
 std::string stage(const std::string& name) {
   const std::string folder = fresh_folder(name);
-  write_text_file(folder + "/ball.json", scene);
+  write_text_file(folder + "/ball.json", small_ball);
   return folder;
-}
-
-ProcessResult run_in(const std::string& folder, const std::vector<std::string>& arguments) {
-  ProcessOptions options;
-  options.folder = folder;
-  return run_rondure(arguments, options);
-}
-
-std::set<std::string> names_in(const std::string& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.insert(entry.path().filename().string());
-  return names;
 }
 
 TEST_CASE("render writes the scene's name and says so", "[commands]") {
@@ -42,7 +29,7 @@ TEST_CASE("render writes the scene's name and says so", "[commands]") {
   CHECK(r.err.find("8 spp: 100%") != std::string::npos);
   CHECK(std::count(r.err.begin(), r.err.end(), '\n') <= 11);  // ten tenths at most, and the note
   CHECK(r.err.find('\r') == std::string::npos);               // no bar: this is no terminal
-  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.exr", "ball.json"});
 }
 
 TEST_CASE("the file's header names what found the hits", "[commands]") {
@@ -109,7 +96,7 @@ TEST_CASE("a resumed render is the file of one run", "[commands]") {
   for (const char* spp : {"10", "70", "150"})
     CHECK(render({"--spp", spp, "-o", "a.exr", "--resume"}).exit_code == 0);
   CHECK(read_text_file(folder + "/a.exr") == read_text_file(folder + "/straight.exr"));
-  CHECK(names_in(folder) == std::set<std::string>{"a.exr", "a.exr.state", "ball.json", "straight.exr"});
+  CHECK(names_in(folder) == std::vector<std::string>{"a.exr", "a.exr.state", "ball.json", "straight.exr"});
 
   const ProcessResult fewer = render({"--spp", "20", "-o", "a.exr", "--resume"});
   CHECK(fewer.exit_code == 1);
@@ -138,7 +125,7 @@ TEST_CASE("the preview is a PNG, and the crop its size", "[commands]") {
   const std::string png = read_text_file(folder + "/ball.png");
   CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
   CHECK(png.substr(16, 8) == std::string("\0\0\0\x15\0\0\0\x0b", 8));  // width and height of the header chunk
-  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json", "ball.png"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.exr", "ball.json", "ball.png"});
 }
 
 TEST_CASE("render's errors name the cause and leave nothing", "[commands]") {
@@ -170,7 +157,7 @@ TEST_CASE("render's errors name the cause and leave nothing", "[commands]") {
         "rondure: error: the crop 0,0,50,20 must be a window of 0,0,40,30: x0,y0 "
         "within, x1,y1 just beyond\n");
   CHECK(error_of({"--spp", "0"}).find("--spp must be in [1, 1073741824], not 0") != std::string::npos);
-  CHECK(names_in(folder) == std::set<std::string>{"ball.json"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.json"});
 }
 
 TEST_CASE("render refuses to write over its own files", "[commands]") {
@@ -196,8 +183,8 @@ TEST_CASE("render refuses to write over its own files", "[commands]") {
     CHECK(r.exit_code == 1);
     CHECK(r.err == "rondure: error: " + row.message + "\n");
   }
-  CHECK(read_text_file(folder + "/ball.json") == scene);
-  CHECK(names_in(folder) == std::set<std::string>{"ball.json", "link.json"});
+  CHECK(read_text_file(folder + "/ball.json") == small_ball);
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.json", "link.json"});
 }
 
 TEST_CASE("render refuses to write over what the scene reads, and to standard output", "[commands]") {
@@ -229,7 +216,7 @@ TEST_CASE("a render needs nobody to read its notes", "[commands]") {
   options.folder = folder;
   CHECK(run_process({"/bin/sh", "-c", "exec \"$0\" render ball.json 2> /dev/full", program_path()}, options)
             .exit_code == 0);
-  CHECK(names_in(folder) == std::set<std::string>{"ball.exr", "ball.json"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.exr", "ball.json"});
 }
 
 TEST_CASE("an interrupted render writes nothing, or with --resume what it has", "[commands]") {
@@ -250,13 +237,13 @@ TEST_CASE("an interrupted render writes nothing, or with --resume what it has", 
   const ProcessResult plain = interrupt("");
   CHECK(plain.exit_code == 1);
   CHECK(plain.err == "rondure: error: interrupted; nothing was written\n");
-  CHECK(names_in(folder) == std::set<std::string>{"ball.json"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.json"});
   CHECK(interrupt("", "TERM").err == plain.err);
   const ProcessResult kept = interrupt("--resume", "XCPU");
   INFO(kept.err);
   CHECK(kept.exit_code == 1);
   CHECK(kept.err.find("samples a pixel are kept in ball.exr.state") != std::string::npos);
-  CHECK(names_in(folder) == std::set<std::string>{"ball.exr.state", "ball.json"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.exr.state", "ball.json"});
 }
 
 TEST_CASE("without the image module a preview is refused before the work", "[commands]") {
@@ -276,7 +263,7 @@ TEST_CASE("without the image module a preview is refused before the work", "[com
   CHECK(r.err.find(
             "rondure: error: picture files other than OpenEXR need the module librondure_images.so (with "
             "OpenImageIO): ") == 0);
-  CHECK(names_in(folder) == std::set<std::string>{"ball.json", "library"});
+  CHECK(names_in(folder) == std::vector<std::string>{"ball.json", "library"});
   // What needs no picture files works without it.
   CHECK(run_rondure({"render", "ball.json", "--quiet"}, options).exit_code == 0);
 }

@@ -9,7 +9,7 @@ namespace {
 
 using Verdict = Regularity::Verdict;
 
-ExactRegularity certified(const Surface& surface) {
+ExactRegularity certified_exactly(const Surface& surface) {
   return exact_regularity(surface, regularity_of(surface));
 }
 
@@ -38,18 +38,18 @@ TEST_CASE("a pinch just outside a patch is told from one inside", "[regularity]"
     // |Su x Sv|^2 = U^2 + 4 V^2 + 4 V^4 is at least the square of the distance.
     CHECK(r.least <= distance * (1 + 1e-9));
     CHECK(r.least > 0.3 * distance);
-    CHECK(certified(outside).verdict == Verdict::regular);
+    CHECK(certified_exactly(outside).verdict == Verdict::regular);
     CHECK(regularity_of(inside).verdict == Verdict::singular);
-    CHECK(certified(inside).verdict == Verdict::singular);
+    CHECK(certified_exactly(inside).verdict == Verdict::singular);
   }
   // In integers no distance is too small.
-  const ExactRegularity near = certified(umbrella({-1e-12, 0.3}));
+  const ExactRegularity near = certified_exactly(umbrella({-1e-12, 0.3}));
   CHECK(near.verdict == Verdict::regular);
   CHECK(near.least <= 1e-12 * (1 + 1e-9));
   CHECK(near.deepest > 60);
   // Nor where rounding made it look singular before.
   for (const double distance : {0x1p-45, 0x1p-52}) {
-    const ExactRegularity nearest = certified(umbrella({-distance, 0.25}));
+    const ExactRegularity nearest = certified_exactly(umbrella({-distance, 0.25}));
     CHECK(nearest.verdict == Verdict::regular);
     CHECK(nearest.least <= distance * (1 + 1e-9));
     CHECK(nearest.least > 0.3 * distance);
@@ -66,7 +66,7 @@ TEST_CASE("a pinch on a side is proved at thirds, in integers", "[regularity]") 
   }
   Surface surface;
   surface.patches.emplace_back(net);
-  const ExactRegularity pinch = certified(surface);
+  const ExactRegularity pinch = certified_exactly(surface);
   CHECK(pinch.verdict == Verdict::singular);
   REQUIRE(pinch.singular.size() == 1);
   CHECK(std::abs(pinch.singular[0].at.u - 1.0 / 3.0) <= pinch.singular[0].within);
@@ -85,13 +85,13 @@ TEST_CASE("regularity is judged whatever the size of weights, and without needle
     CHECK(same.verdict == Verdict::regular);
     CHECK(same.pieces == judged.pieces);
     CHECK(same.least == judged.least);
-    CHECK(certified(sized).verdict == Verdict::regular);
+    CHECK(certified_exactly(sized).verdict == Verdict::regular);
   }
   // Normals differ by 10^6 in length here: a plane must lie well for all of them.
   Surface flat = plain;
   for (Net& net : flat.patches)
     for (dvec4& p : points_of(net)) p.x *= 0x1p-10, p.z *= 0x1p10;
-  const ExactRegularity proof = certified(flat);
+  const ExactRegularity proof = certified_exactly(flat);
   CHECK(proof.verdict == Verdict::regular);
   CHECK(proof.pieces < 1000);
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/triangle_to_tensor.h"
 #include "renderer/bezier/tube.h"
@@ -21,8 +22,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double eps = 0x1p-52;
 
 // | |p| - 1 | without rounding.
 double off_sphere(const Net& net, double u, double v) {
@@ -50,10 +49,10 @@ TEST_CASE("any spherical triangle is a quartic inverse spherical surface", "[iss
       if (k < 3) at = dvec2(at.x, 0.0);
       const auto say = [&] { return fmt::format("trial {} at ({}, {})", trial, at.x, at.y); };
       // Half an ulp of every control point, over a weight that falls to about a third of the corners'.
-      on_sphere.add(off_sphere(net, at.x, at.y), 4.0 * eps, say);
+      on_sphere.add(off_sphere(net, at.x, at.y), 4.0 * epsilon, say);
       if (k >= 3) continue;
       const dvec3 normal = glm::normalize(glm::cross(t[0], t[2]));
-      sides.add(std::abs(glm::dot(net_point(net, at.x, at.y), normal)), 16.0 * eps, say);
+      sides.add(std::abs(glm::dot(net_point(net, at.x, at.y), normal)), 16.0 * epsilon, say);
     }
   }
   INFO(on_sphere.text());
@@ -108,8 +107,8 @@ TEST_CASE("triangles in tensor form are the same surface", "[iss]") {
       const double s = make.uniform(0.0, 1.0), t = make.uniform(0.0, 1.0);
       const auto compare = [&](const TensorNet& tensor, dvec2 at, const char* what) {
         const oracle::BigPoint p = oracle::derivative(net, 0, 0, oracle::Big(at.x), oracle::Big(at.y));
-        // at is rounded: half an eps times a derivative of at most 2 n size.
-        worst.add(oracle::distance(net_first(tensor, s, t).value, p), (4.0 + 3.0 * n) * eps * size,
+        // at is rounded: half an epsilon times a derivative of at most 2 n size.
+        worst.add(oracle::distance(net_first(tensor, s, t).value, p), (4.0 + 3.0 * n) * epsilon * size,
                   [&] { return fmt::format("{}, degree {}", what, n); });
       };
       compare(whole, dvec2(1.0 - s, s * (1.0 - t)), "degenerate");
@@ -140,7 +139,7 @@ TEST_CASE("tensor forms have the reference's control points", "[iss]") {
         const auto& e = item["net"][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
         const dvec4 q(e[0].get<double>(), e[1].get<double>(), e[2].get<double>(), e[3].get<double>());
         // The data is point times weight, rounded; the sums are of positive weights, rounded once.
-        worst.add(glm::distance(factor * tensor.at(i, j), q), 8.0 * eps * glm::length(q),
+        worst.add(glm::distance(factor * tensor.at(i, j), q), 8.0 * epsilon * glm::length(q),
                   [&] { return fmt::format("{} ({}, {})", kind, i, j); });
       }
     }
@@ -172,7 +171,7 @@ TEST_CASE("rays meet all three forms of a model alike", "[iss][hits]") {
         const double cosine = std::abs(glm::dot(a[i].normal, ray.direction)) / glm::length(ray.direction);
         // 16 ulps of the surface (radius about 1) on each side, along the ray 1 / cos.
         worst.add(std::abs(a[i].t - b[i].t),
-                  32.0 * eps / cosine / glm::length(ray.direction) + 8.0 * eps * a[i].t,
+                  32.0 * epsilon / cosine / glm::length(ray.direction) + 8.0 * epsilon * a[i].t,
                   [&] { return fmt::format("{} ray {}", form, k); });
       }
     }
@@ -194,7 +193,8 @@ TEST_CASE("tubes are round", "[iss]") {
       for (int k = 0; k < 10; ++k) {
         const double u = make.uniform(0.0, 1.0), v = make.uniform(0.0, 1.0);
         const dvec3 p = net_point(net, u, v);
-        worst.add(std::abs(distance(p) - radius), 32.0 * eps, [&] { return fmt::format("({}, {})", u, v); });
+        worst.add(std::abs(distance(p) - radius), 32.0 * epsilon,
+                  [&] { return fmt::format("({}, {})", u, v); });
         const double ahead = distance(p + 1e-4 * unit_normal(net, u, v)) - radius;
         outward.add(std::abs(ahead - 1e-4), 1e-9, [&] { return fmt::format("({}, {})", u, v); });
       }

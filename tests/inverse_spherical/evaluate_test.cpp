@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/bezier/epsilon.h"
 #include "tests/bezier/oracle.h"
 #include "tests/catch.h"
 #include "tests/inverse_spherical/random_iss.h"
@@ -10,8 +11,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double eps = 0x1p-52;
 
 dvec3 exact_point(const TriangleNet& net, dvec2 at, double* distance_of = nullptr,
                   const dvec3* computed = nullptr) {
@@ -42,12 +41,12 @@ TEST_CASE("Algorithms 1, 2 and 3 and the explicit form agree to rounding", "[iss
         const dvec2 at = k == 0 ? dvec2(0.0, 1.0) : make.in_triangle();
         const auto say = [&] { return fmt::format("degree {} at ({}, {})", n, at.x, at.y); };
         // All sums are of terms of one sign but for the coordinates of u, which are bounded by the largest
-        // |u|, up to 2.75, over weights of at least 0.5 * 0.2: a few eps a step, n steps, relative to |u| /
-        // w.
+        // |u|, up to 2.75, over weights of at least 0.5 * 0.2: a few epsilon a step, n steps, relative to |u|
+        // / w.
         double size = 0.0, weight = 1e300;
         for (const dvec4& p : net.points)
           size = std::max(size, glm::length(dvec3(p))), weight = std::min(weight, p.w);
-        const double tolerance = 6.0 * (n + 2) * eps * size / weight;
+        const double tolerance = 6.0 * (n + 2) * epsilon * size / weight;
         const auto check = [&](WorstCase& worst, const dvec3& computed) {
           double off = 0.0;
           exact_point(net, at, &off, &computed);
@@ -56,7 +55,7 @@ TEST_CASE("Algorithms 1, 2 and 3 and the explicit form agree to rounding", "[iss
         check(one, point_by_casteljau(net, at.x, at.y));
         const SphericalPoint p = point_by_spherical_casteljau(s, at.x, at.y);
         check(two, p.point());
-        direction.add(std::abs(glm::length(p.direction) - 1.0), 4.0 * eps, say);
+        direction.add(std::abs(glm::length(p.direction) - 1.0), 4.0 * epsilon, say);
         check(sums, point_by_sums(s, at.x, at.y));
         if (flat) check(three, point_by_weights(planar, at.x, at.y));
       }
@@ -84,7 +83,7 @@ TEST_CASE("a planar-domain surface is a function of direction", "[iss]") {
       const auto say = [&] { return fmt::format("degree {} at ({}, {})", n, at.x, at.y); };
       // Of the direction's rounding, times moduli over the determinant (up to 2.5 / 0.2), degree 9 and
       // weights that differ by up to 4 * 6.
-      radius.add(std::abs(*r / glm::length(p) - 1.0), 12.5 * n * 24.0 * 4.0 * eps, say);
+      radius.add(std::abs(*r / glm::length(p) - 1.0), 12.5 * n * 24.0 * 4.0 * epsilon, say);
       // Against the point on the other side of the sphere, and beyond a side, there is nothing.
       nothing.add(radius_towards(s, -p).has_value() ? 1.0 : 0.0, 0.5, say);
       const dvec3 beyond = s.corners[0] + s.corners[1] - 0.01 * s.corners[2];
@@ -106,7 +105,7 @@ TEST_CASE("the radius depends on the direction alone, across renamed corners", "
     for (int first = 1; first < 3; ++first) {
       const std::optional<double> r = radius_towards(rotated(s, first), p);
       REQUIRE(r.has_value());
-      worst.add(std::abs(*r / glm::length(p) - 1.0), 12.5 * 7 * 24.0 * 4.0 * eps,
+      worst.add(std::abs(*r / glm::length(p) - 1.0), 12.5 * 7 * 24.0 * 4.0 * epsilon,
                 [&] { return fmt::format("trial {}", trial); });
     }
   }

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/inverse_spherical/evaluate.h"
 #include "renderer/inverse_spherical/octant_model.h"
 #include "tests/catch.h"
@@ -14,14 +15,12 @@
 namespace rondure {
 namespace {
 
-constexpr double eps = 0x1p-52;
-
 dvec3 direction_in(const PlanarIss& s, dvec2 at) {
   return at.x * s.corners[0] + at.y * s.corners[1] + (1.0 - at.x - at.y) * s.corners[2];
 }
 
-// The part's points lie on `whole`: same radius in the same direction. Both are good to some eps of degree,
-// moduli and weights (see evaluate_test).
+// The part's points lie on `whole`: same radius in the same direction. Both are good to some epsilon of
+// degree, moduli and weights (see evaluate_test).
 void compare(const PlanarIss& part, const PlanarIss& whole, NetMaker& make, WorstCase& worst) {
   for (int k = 0; k < 6; ++k) {
     const dvec3 p = point_by_weights(part, make.in_triangle().x, 0.0);
@@ -29,7 +28,7 @@ void compare(const PlanarIss& part, const PlanarIss& whole, NetMaker& make, Wors
     const dvec3 q = k == 0 ? p : point_by_weights(part, at.x, at.y);
     const std::optional<double> r = radius_towards(whole, q);
     const double off = r ? std::abs(*r / glm::length(q) - 1.0) : 1.0;
-    worst.add(off, 12.5 * 24.0 * 8.0 * (whole.n + 1) * eps,
+    worst.add(off, 12.5 * 24.0 * 8.0 * (whole.n + 1) * epsilon,
               [&] { return fmt::format("degree {}, point {}", whole.n, k); });
   }
 }
@@ -53,7 +52,7 @@ TEST_CASE("elevation keeps the surface", "[iss]") {
       const dvec2 at = make.in_triangle();
       const dvec3 p = point_by_casteljau(net, at.x, at.y);
       general.add(glm::distance(p, point_by_casteljau(higher, at.x, at.y)) / glm::length(p),
-                  500.0 * (n + 3) * eps, [&] { return fmt::format("degree {}", n); });
+                  500.0 * (n + 3) * epsilon, [&] { return fmt::format("degree {}", n); });
     }
   }
   INFO(worst.text());
@@ -75,16 +74,16 @@ TEST_CASE("subdivision keeps the surface, and its parts fill the triangle", "[is
       compare(part, s, make, worst);
       area += orientation(part.corners[0], part.corners[1], part.corners[2]) / whole;
       const dvec3 meeting = part.corners[static_cast<std::size_t>(place++)];
-      corner.add(glm::distance(meeting, direction_in(s, at)), 0.0 + eps,
+      corner.add(glm::distance(meeting, direction_in(s, at)), 0.0 + epsilon,
                  [&] { return std::string("meeting point"); });
     }
-    corner.add(std::abs(area - 1.0), 100.0 * eps,
+    corner.add(std::abs(area - 1.0), 100.0 * epsilon,
                [&] { return fmt::format("three parts, trial {}", trial); });
     area = 0.0;
     for (const PlanarIss& part : quartered(s)) {
       compare(part, s, make, worst);
       const double share = orientation(part.corners[0], part.corners[1], part.corners[2]) / whole;
-      corner.add(std::abs(share - 0.25), 100.0 * eps,
+      corner.add(std::abs(share - 0.25), 100.0 * epsilon,
                  [&] { return fmt::format("four parts, trial {}", trial); });
       area += share;
     }
@@ -108,15 +107,15 @@ TEST_CASE("along a great-circle arc the surface is an inverse circular curve", "
       const dvec3 p = curve.point(k / 8.0);
       const auto say = [&] { return fmt::format("trial {} at {}/8", trial, k); };
       const std::optional<double> r = radius_towards(s, p);
-      points.add(r ? std::abs(*r / glm::length(p) - 1.0) : 1.0, 12.5 * 24.0 * 8.0 * (s.n + 1) * eps, say);
+      points.add(r ? std::abs(*r / glm::length(p) - 1.0) : 1.0, 12.5 * 24.0 * 8.0 * (s.n + 1) * epsilon, say);
       const double bent =
           glm::length(glm::cross(curve.from, curve.to)) / (glm::length(curve.from) * glm::length(curve.to));
-      plane.add(std::abs(glm::dot(p, normal)) / glm::length(p), 8.0 * eps / bent, say);
+      plane.add(std::abs(glm::dot(p, normal)) / glm::length(p), 8.0 * epsilon / bent, say);
     }
     // Ends: the surface's own points, at distance 1 / c.
-    control.add(std::abs(glm::length(curve.point(0.0)) * c.front() - 1.0), 8.0 * eps,
+    control.add(std::abs(glm::length(curve.point(0.0)) * c.front() - 1.0), 8.0 * epsilon,
                 [] { return std::string("start"); });
-    control.add(std::abs(glm::length(curve.point(1.0)) * c.back() - 1.0), 8.0 * eps,
+    control.add(std::abs(glm::length(curve.point(1.0)) * c.back() - 1.0), 8.0 * epsilon,
                 [] { return std::string("end"); });
   }
   INFO(points.text());
@@ -151,7 +150,7 @@ TEST_CASE("an arc between two directions is cut to each patch that it crosses", 
       for (int k = 0; k <= 4; ++k) {
         const dvec3 p = curve->point(k / 4.0);
         const std::optional<double> r = radius_towards(s, p);
-        points.add(r ? std::abs(*r / glm::length(p) - 1.0) : 1.0, 12.5 * 24.0 * 5.0 * eps, say);
+        points.add(r ? std::abs(*r / glm::length(p) - 1.0) : 1.0, 12.5 * 24.0 * 5.0 * epsilon, say);
         // On the arc: in its plane, and between its ends.
         const double beyond = bend(ends[0], p) + bend(p, ends[1]) - bend(ends[0], ends[1]);
         points.add(std::abs(beyond), 1e-7, say);
@@ -183,7 +182,7 @@ TEST_CASE("an arc between two directions is cut to each patch that it crosses", 
   dvec4 sum(0.0);
   const std::vector<dvec4> control = curve.control_points();
   for (std::size_t k = 0; k < 5; ++k) sum += std::array<double, 5>{1, 4, 6, 4, 1}[k] / 16.0 * control[k];
-  CHECK(glm::distance(dvec3(sum) / sum.w, curve.point(0.5)) < 4.0 * eps);
+  CHECK(glm::distance(dvec3(sum) / sum.w, curve.point(0.5)) < 4.0 * epsilon);
 }
 
 TEST_CASE("a part of a surface on a domain that is not planar is none (Remark 7.1)", "[iss]") {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/triangle_keys.h"
 #include "renderer/intersect/tracer.h"
@@ -18,8 +19,6 @@ namespace rondure {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr double eps = 0x1p-52;
 
 struct Case {
   std::string name;
@@ -62,7 +61,7 @@ TEST_CASE("iss nets are the reference's", "[iss]") {
         const dvec4 q(vector_of(value), value[3].get<double>());
         // The data is rounded, the input coefficients are, and the constructions take some ten sums:
         // elevation by four degrees, the blossoms of a subdivision, the relations along edges.
-        worst.add(glm::length(factor * p - q), 16.0 * eps * glm::length(q),
+        worst.add(glm::length(factor * p - q), 16.0 * epsilon * glm::length(q),
                   [&] { return fmt::format("{} patch {} {}", c.name, k, key); });
       }
     }
@@ -83,7 +82,8 @@ TEST_CASE("iss points and normals are the reference's", "[iss]") {
       const auto say = [&] { return fmt::format("{} {}", c.name, s.dump()); };
       const dvec3 p = vector_of(s["point"]);
       // Parameters and net are rounded; the surfaces move by less than 10 for a unit of a parameter.
-      points.add(glm::distance(net_point(net, u, v), p), 16.0 * eps * std::fmax(1.0, glm::length(p)), say);
+      points.add(glm::distance(net_point(net, u, v), p), 16.0 * epsilon * std::fmax(1.0, glm::length(p)),
+                 say);
       normals.add(glm::distance(unit_normal(net, u, v), vector_of(s["normal"])), 1e-13, say);
     }
   }
@@ -121,9 +121,9 @@ TEST_CASE("iss first hits are the reference's", "[iss][hits]") {
           continue;
         }
         // 16 ulps of the surface, stretched along the ray by 1 / cos.
-        const double off = 16.0 * eps / ray["cosine"].get<double>();
+        const double off = 16.0 * epsilon / ray["cosine"].get<double>();
         const double expected_t = ray["t"].get<double>();
-        t.add(std::fabs(hit.t - expected_t), off / glm::length(direction) + 4.0 * eps * expected_t, say);
+        t.add(std::fabs(hit.t - expected_t), off / glm::length(direction) + 4.0 * epsilon * expected_t, say);
         const int patch = ray["patch"].get<int>();
         if (boundary) {
           const auto allowed = ray["patches"].get<std::vector<int>>();
@@ -135,7 +135,7 @@ TEST_CASE("iss first hits are the reference's", "[iss][hits]") {
         }
         // Parameters run faster than the surface by up to 10.
         const dvec2 uv(ray["uv"][0].get<double>(), ray["uv"][1].get<double>());
-        parameter.add(glm::distance(dvec2(hit.u, hit.v), uv), 10.0 * off + 16.0 * eps, say);
+        parameter.add(glm::distance(dvec2(hit.u, hit.v), uv), 10.0 * off + 16.0 * epsilon, say);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "renderer/bezier/elevate.h"
+#include "renderer/bezier/epsilon.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/inverse_spherical/evaluate.h"
 #include "renderer/inverse_spherical/join.h"
@@ -17,8 +18,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double eps = 0x1p-52;
 
 // The normal, away from the origin, in direction v.
 dvec3 normal_towards(const PlanarIss& s, const dvec3& v) {
@@ -62,7 +61,7 @@ TEST_CASE("Proposition 2 joins with one tangent plane", "[iss]") {
     const std::optional<dvec3> vertex = coplanar_vertex(s, direction);
     REQUIRE(vertex.has_value());
     const dvec3 k = domain_combination(s, *vertex);
-    flat.add(std::abs(k.x + k.y + k.z - 1.0), 64.0 * eps, [&] { return fmt::format("trial {}", trial); });
+    flat.add(std::abs(k.x + k.y + k.z - 1.0), 64.0 * epsilon, [&] { return fmt::format("trial {}", trial); });
     try {
       const PlanarIss t = joined(s, *vertex, random_weights(make, n, 0.5, 1.5));
       check_side(s, t, s.corners[1], s.corners[2], worst, fmt::format("trial {} degree {}", trial, n));
@@ -149,7 +148,7 @@ TEST_CASE("three to eight patches meet smoothly around a vertex", "[iss]") {
       const std::vector<PlanarIss> same = smooth_fan(domain, n, again);
       for (std::size_t m = 0; m < fan.size(); ++m) {
         for (std::size_t k = 0; k < fan[m].weights.size(); ++k) {
-          still.add(std::abs(same[m].weights[k] - fan[m].weights[k]), 64.0 * eps,
+          still.add(std::abs(same[m].weights[k] - fan[m].weights[k]), 64.0 * epsilon,
                     [&] { return fmt::format("{} patches of degree {}", sides, n); });
         }
       }

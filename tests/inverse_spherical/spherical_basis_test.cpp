@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 #include <stdexcept>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/inverse_spherical/evaluate.h"
 #include "tests/catch.h"
 #include "tests/inverse_spherical/random_iss.h"
@@ -12,8 +13,6 @@
 
 namespace rondure {
 namespace {
-
-constexpr double eps = 0x1p-52;
 
 double angle_to_plane(const dvec3& v, const dvec3& a, const dvec3& b) {
   return std::asin(glm::dot(v, glm::normalize(glm::cross(a, b))));
@@ -33,11 +32,12 @@ TEST_CASE("spherical barycentric coordinates are ratios of sines", "[iss]") {
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const dvec3 &a = t[(k + 1) % 3], &b = t[(k + 2) % 3];
-      // Equation 12 as it stands. Determinants of at least 0.2: eps / 0.2 each, and asin near its end at 1.
+      // Equation 12 as it stands. Determinants of at least 0.2: epsilon / 0.2 each, and asin near its end
+      // at 1.
       const double ratio = std::sin(angle_to_plane(v, a, b)) / std::sin(angle_to_plane(t[k], a, b));
-      sines.add(std::abs(beta[i] - ratio), 100.0 * eps * (1.0 + std::abs(ratio)), say);
+      sines.add(std::abs(beta[i] - ratio), 100.0 * epsilon * (1.0 + std::abs(ratio)), say);
     }
-    sum.add(glm::distance(beta.x * t[0] + beta.y * t[1] + beta.z * t[2], v), 100.0 * eps, say);
+    sum.add(glm::distance(beta.x * t[0] + beta.y * t[1] + beta.z * t[2], v), 100.0 * epsilon, say);
     // More than 1 inside.
     const double total = beta.x + beta.y + beta.z;
     above_one.add(total > 1.0 ? 0.0 : 1.0, 0.5, say);
@@ -46,8 +46,8 @@ TEST_CASE("spherical barycentric coordinates are ratios of sines", "[iss]") {
     const dvec3 e = glm::normalize((1.0 - s) * t[0] + s * t[1]);
     const dvec3 on_side = spherical_barycentric(t, e);
     const double whole = glm::length(glm::cross(t[0], t[1]));
-    side.add(std::abs(on_side.x - glm::length(glm::cross(e, t[1])) / whole), 100.0 * eps, say);
-    side.add(std::abs(on_side.z), 100.0 * eps, say);
+    side.add(std::abs(on_side.x - glm::length(glm::cross(e, t[1])) / whole), 100.0 * epsilon, say);
+    side.add(std::abs(on_side.z), 100.0 * epsilon, say);
   }
   INFO(sines.text());
   INFO(sum.text());
@@ -65,7 +65,7 @@ TEST_CASE("direction and domain coordinates are inverse to each other", "[iss]")
     const dvec3 u = tau.x * s.corners[0] + tau.y * s.corners[1] + tau.z * s.corners[2];
     // Moduli of 0.4 to 2.5 and a determinant of at least 0.2.
     worst.add(glm::distance(domain_coordinates(s.corners, make.uniform(0.1, 10.0) * u), tau),
-              8.0 * 2.5 / 0.4 / 0.2 * eps, [&] { return fmt::format("trial {}", trial); });
+              8.0 * 2.5 / 0.4 / 0.2 * epsilon, [&] { return fmt::format("trial {}", trial); });
   }
   INFO(worst.text());
   CHECK(worst.failures() == 0);
@@ -91,12 +91,12 @@ TEST_CASE("Theorem 3 and Theorem 4 give one basis, with linear precision", "[iss
       }
       for (std::size_t k = 0; k < paths.size(); ++k) {
         // Products of n quotients and positive sums of them.
-        theorems.add(std::abs(paths[k] - direct[k]), 16.0 * (n + 1) * eps * (direct[k] + total), say);
+        theorems.add(std::abs(paths[k] - direct[k]), 16.0 * (n + 1) * epsilon * (direct[k] + total), say);
       }
       // Equation 14: sum v_ijk B_ijk = v. Equation 13: p = sum c_ijk B_ijk.
       const SphericalPoint point = point_by_spherical_casteljau(s, at.x, at.y);
-      precision.add(glm::distance(v, point.direction), 16.0 * (n + 1) * eps * total, say);
-      radius.add(std::abs(p / point.p - 1.0), 16.0 * (n + 1) * eps, say);
+      precision.add(glm::distance(v, point.direction), 16.0 * (n + 1) * epsilon * total, say);
+      radius.add(std::abs(p / point.p - 1.0), 16.0 * (n + 1) * epsilon, say);
     }
   }
   INFO("theorems: " << theorems.text());
@@ -116,9 +116,10 @@ TEST_CASE("an inverse spherical surface is a rational Bezier patch, and back", "
     CHECK(back.u == s.u);
     for (std::size_t k = 0; k < s.c.size(); ++k) {
       const auto say = [&] { return fmt::format("degree {} coefficient {}", n, k); };
-      worst.add(std::abs(back.c[k] / s.c[k] - 1.0), 2.0 * eps, say);
+      worst.add(std::abs(back.c[k] / s.c[k] - 1.0), 2.0 * epsilon, say);
       // Section 3: the control point is v / c, its distance 1 / c.
-      worst.add(std::abs(glm::length(dvec3(net.points[k]) / net.points[k].w) * s.c[k] - 1.0), 4.0 * eps, say);
+      worst.add(std::abs(glm::length(dvec3(net.points[k]) / net.points[k].w) * s.c[k] - 1.0), 4.0 * epsilon,
+                say);
     }
   }
   INFO(worst.text());

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/normals/normal_field.h"
 #include "renderer/normals/normal_germ.h"
@@ -19,10 +20,6 @@ namespace {
 
 Surface built(const std::string& name) {
   return surface_of(subjects_named({name}).at(0), StagedScene::builtins());
-}
-
-double angle_between(const dvec3& a, const dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 TEST_CASE("away from singular points all estimators agree", "[normals]") {

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/tangents_in.h"
 #include "renderer/normals/estimator.h"
@@ -23,10 +24,6 @@ namespace {
 
 using glm::dquat;
 using Wide = boost::multiprecision::cpp_bin_float_50;
-
-double angle_between(const dvec3& a, const dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 dvec3 unit(const Vector3In<Wide>& v) {
   const Wide length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

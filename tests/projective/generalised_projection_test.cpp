@@ -13,7 +13,7 @@ namespace {
 constexpr int rounds = 200;
 
 // Counts what is false, so that a test asserts once.
-struct Tally {
+struct ProjectionTally {
   int checks = 0, wrong = 0;
   void operator()(bool right) { ++checks, wrong += !right; }
 };
@@ -50,7 +50,7 @@ lvec4 meet_line(const lvec4& p, const lvec4& q, const lvec4& plane) {
 
 TEST_CASE("delta is sigma after theta, onto the sphere", "[projective]") {
   IntegerPoints make(1);
-  Tally right;
+  ProjectionTally right;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 p = make.point();
     right(on_sphere(delta(p)) == 0);
@@ -69,7 +69,7 @@ TEST_CASE("delta is sigma after theta, onto the sphere", "[projective]") {
 
 TEST_CASE("the preimages of a point are one line (lemma 3.2)", "[projective]") {
   IntegerPoints make(2);
-  Tally right;
+  ProjectionTally right;
   int apart = 0;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 p = make.point(), q = make.point();
@@ -95,7 +95,7 @@ TEST_CASE("the preimages of a point are one line (lemma 3.2)", "[projective]") {
 
 TEST_CASE("projecting lines lie in two linear complexes (theorem 3.3)", "[projective]") {
   IntegerPoints make(3);
-  Tally right;
+  ProjectionTally right;
   int others = 0;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 p = make.point(), q = make.point();
@@ -114,7 +114,7 @@ TEST_CASE("projecting lines lie in two linear complexes (theorem 3.3)", "[projec
 
 TEST_CASE("circles have ruled preimages (lemma 3.4, equation 27)", "[projective]") {
   IntegerPoints make(4);
-  Tally right;
+  ProjectionTally right;
   // From (p0, p1, p2, p3) to (p1, p2, p3, p0), the coordinates of a space with p0 for its weight.
   const auto weight_last = [](const lmat4& m) {
     lmat4 out;
@@ -146,7 +146,7 @@ TEST_CASE("circles have ruled preimages (lemma 3.4, equation 27)", "[projective]
 
 TEST_CASE("lines go to circles (lemma 3.5)", "[projective]") {
   IntegerPoints make(5);
-  Tally right;
+  ProjectionTally right;
   int circles = 0, lines = 0;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 p = make.point();
@@ -174,7 +174,7 @@ TEST_CASE("lines go to circles (lemma 3.5)", "[projective]") {
 
 TEST_CASE("the lines of a plane go to the circles through a point (lemma 3.6)", "[projective]") {
   IntegerPoints make(6);
-  Tally right;
+  ProjectionTally right;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 plane = make.point();
     // Its projecting line. Every other one meets it in a point only (lemma 3.7).
@@ -197,7 +197,7 @@ TEST_CASE("the lines of a plane go to the circles through a point (lemma 3.6)", 
 
 TEST_CASE("planes meet projecting lines and are spanned by them (lemmas 3.7 and 3.8)", "[projective]") {
   IntegerPoints make(7);
-  Tally right;
+  ProjectionTally right;
   for (int k = 0; k < rounds; ++k) {
     const lvec4 p = make.point(), plane = make.point(), r = make.point();
     const lvec4 meet = meet_plane(p, plane);

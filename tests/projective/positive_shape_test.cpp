@@ -65,7 +65,7 @@ std::array<SphereArc, N> around_axis(NetMaker& make, double low, double high) {
 
 // The outcomes of the search in families that have a regular member at least, but none of positive weights
 // where ratios are 1 and turns 0.
-struct Tally {
+struct ShapeTally {
   int positive = 0, found = 0, none = 0, undecided = 0, wrong = 0, contradicted = 0;
 
   void add(NetMaker& make, const std::vector<PreimageFamily>& families) {
@@ -166,7 +166,7 @@ TEST_CASE("the search agrees with the closed form of the biquadratic patch", "[p
 
 TEST_CASE("positive weights are found, or proved not to exist", "[projective]") {
   NetMaker make(63);
-  Tally quads, triangles, large;
+  ShapeTally quads, triangles, large;
   for (int k = 0; k < 20; ++k) {
     const auto four = around_axis<4>(make, 60, 130);
     quads.add(make, {linear_quadratic_family({four}), quadratic_linear_family({four})});
@@ -174,7 +174,7 @@ TEST_CASE("positive weights are found, or proved not to exist", "[projective]") 
     const auto wide = around_axis<4>(make, 90, 150);
     large.add(make, {linear_quadratic_family({wide}), quadratic_linear_family({wide})});
   }
-  for (const Tally* tally : {&quads, &triangles, &large}) {
+  for (const ShapeTally* tally : {&quads, &triangles, &large}) {
     INFO(tally->text());
     CHECK(tally->wrong == 0);
     CHECK(tally->contradicted == 0);

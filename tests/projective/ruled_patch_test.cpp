@@ -18,8 +18,8 @@ RuledPoint at(long double s, long double t) {
   return {{std::cos(s), std::sin(s)}, {std::cos(t), std::sin(t)}};
 }
 
-lvec4 image(const RuledPoint& p) { return ruled_point(p.a, p.b); }
-lvec4 image(const lvec4& p) { return ruled_image(p, p); }
+lvec4 image_of(const RuledPoint& p) { return ruled_point(p.a, p.b); }
+lvec4 image_of(const lvec4& p) { return ruled_image(p, p); }
 
 lvec4 plane_of(const lvec4& p, const lvec4& q, const lvec4& r) {
   lvec4 h;
@@ -86,8 +86,8 @@ void check_sides(const TensorPreimage& p, const Sides& sides, const std::string&
   for (std::size_t k = 0; k < 4; ++k) {
     const auto text = [&] { return fmt::format("{}, side {}", name, k); };
     const std::vector<lvec4> side = side_of(p, k);
-    const lvec4 from = image(sides.quad.corner[k]), to = image(sides.quad.corner[(k + 1) % 4]);
-    const lvec4 h = plane_of(from, image(sides.between[k]), to);
+    const lvec4 from = image_of(sides.quad.corner[k]), to = image_of(sides.quad.corner[(k + 1) % 4]);
+    const lvec4 h = plane_of(from, image_of(sides.between[k]), to);
     for (const lvec4& c : side)
       worst.add(static_cast<double>(std::abs(glm::dot(h, c))),
                 1e-15 * static_cast<double>(1 + glm::length(c)), text);
@@ -96,7 +96,7 @@ void check_sides(const TensorPreimage& p, const Sides& sides, const std::string&
     // The arc that was asked for passes its point: the nearest of 1001 is off by less than their distance.
     long double least = 1;
     for (int i = 0; i <= 1000; ++i)
-      least = std::min(least, apart(value(side, i / 1000.0L), image(sides.between[k])));
+      least = std::min(least, apart(value(side, i / 1000.0L), image_of(sides.between[k])));
     worst.add(static_cast<double>(least), 1e-5, text);
   }
 }
@@ -107,10 +107,10 @@ TEST_CASE("points of the ruled quadric are two lines", "[projective]") {
   NetMaker make(81);
   WorstCase worst;
   for (int k = 0; k < 200; ++k) {
-    const lvec4 x = image(lvec4(make.point(-1.0, 1.0)));
+    const lvec4 x = image_of(lvec4(make.point(-1.0, 1.0)));
     const RuledPoint p = ruled_preimage(x);
-    worst.add(static_cast<double>(apart(image(p), x)), 1e-18, [&] { return fmt::format("point {}", k); });
-    worst.add(static_cast<double>(apart(image(to_preimage(p)), x)), 1e-18,
+    worst.add(static_cast<double>(apart(image_of(p), x)), 1e-18, [&] { return fmt::format("point {}", k); });
+    worst.add(static_cast<double>(apart(image_of(to_preimage(p)), x)), 1e-18,
               [&] { return fmt::format("net {}", k); });
   }
   INFO(worst.text());
@@ -160,17 +160,17 @@ TEST_CASE("degree (2, 2) needs the condition of theorem 3.9", "[projective]") {
     // Where two sections meet again: on the line that their planes share.
     const auto second = [&](std::size_t corner) {
       const std::size_t before = (corner + 3) % 4, after = (corner + 1) % 4;
-      const auto point_of = [&](std::size_t i) { return image(sides.quad.corner[i]); };
+      const auto point_of = [&](std::size_t i) { return image_of(sides.quad.corner[i]); };
       const lvec4 c = point_of(corner);
-      const lvec4 in = plane_of(point_of(before), image(sides.between[before]), c);
-      const lvec4 out = plane_of(c, image(sides.between[corner]), point_of(after));
+      const lvec4 in = plane_of(point_of(before), image_of(sides.between[before]), c);
+      const lvec4 out = plane_of(c, image_of(sides.between[corner]), point_of(after));
       const lvec4 d = plane_of(in, out, c);
       const auto form = [](const lvec4& p, const lvec4& q) {
         return p.x * q.x + p.y * q.y - p.z * q.z - p.w * q.w;
       };
       return glm::normalize(form(d, d) * c - 2 * form(c, d) * d);
     };
-    const lvec4 h4 = plane_of(image(sides.quad.corner[0]), second(1), image(sides.quad.corner[2]));
+    const lvec4 h4 = plane_of(image_of(sides.quad.corner[0]), second(1), image_of(sides.quad.corner[2]));
     const long double off = std::abs(glm::dot(h4, second(3)));
     const auto text = [&] { return fmt::format("quad {}", k); };
     if (!closes) {
@@ -198,7 +198,7 @@ TEST_CASE("a plane gives the finite arc, the shorter of two", "[projective]") {
                      r = at(make.uniform(-0.7, 0.7), make.uniform(-0.7, 0.7)),
                      q = at(make.uniform(-0.7, 0.7), make.uniform(-0.7, 0.7));
     const SectionArc through = section_through(p, r, q);
-    const auto found = section_in_plane(p, q, plane_of(image(p), image(r), image(q)), weight);
+    const auto found = section_in_plane(p, q, plane_of(image_of(p), image_of(r), image_of(q)), weight);
     if (!found) {
       ++through_infinity;
       continue;
@@ -210,7 +210,7 @@ TEST_CASE("a plane gives the finite arc, the shorter of two", "[projective]") {
     for (int i = 0; i <= 50; ++i) {
       const long double t = i / 50.0L;
       const lvec4 x = ruled_point((1 - t) * p.a + t * found->x * q.a, (1 - t) * p.b + t * found->y * q.b);
-      worst.add(x.w * image(p).w > 0 ? 0.0 : 1.0, 0.5, [&] { return fmt::format("arc {} at {}", k, i); });
+      worst.add(x.w * image_of(p).w > 0 ? 0.0 : 1.0, 0.5, [&] { return fmt::format("arc {} at {}", k, i); });
     }
   }
   INFO(worst.text());
@@ -224,7 +224,8 @@ TEST_CASE("a plane gives the finite arc, the shorter of two", "[projective]") {
   const lvec4 middle = ruled_point(east.a + waist->x * north.a, east.b + waist->y * north.b);
   CHECK(middle.x / middle.w > 0.7L);
   const RuledPoint along = at(0, 0.5L);
-  const auto line = section_in_plane(east, along, plane_of(image(east), image(along), {0, 0, 0, 1}), weight);
+  const auto line =
+      section_in_plane(east, along, plane_of(image_of(east), image_of(along), {0, 0, 0, 1}), weight);
   REQUIRE(line);
   CHECK((line->x == 1 && line->y == 1));
 }

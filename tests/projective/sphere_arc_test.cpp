@@ -96,7 +96,6 @@ TEST_CASE("great arcs and arcs in planes are arcs through their middle", "[proje
 }
 
 TEST_CASE("plane images have the control points of planar arcs", "[projective]") {
-  using Complex = std::complex<long double>;
   NetMaker make(5);
   WorstCase worst;
   for (int k = 0; k < 1000; ++k) {

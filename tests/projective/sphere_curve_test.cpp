@@ -21,7 +21,7 @@ lvec4 at(std::vector<lvec4> c, long double t) {
   return c[0];
 }
 
-lvec3 point(const lvec4& x) { return lvec3(x) / x.w; }
+lvec3 curve_point(const lvec4& x) { return lvec3(x) / x.w; }
 
 // The largest difference of control points that may have a common factor.
 double off(const std::vector<lvec4>& a, const std::vector<lvec4>& b) {
@@ -70,13 +70,13 @@ TEST_CASE("2n + 1 points have a curve of degree 2n (theorem 3.13)", "[projective
       // The equations hold to rounding of the control points (length 1 in all), which counts the more the
       // smaller the preimage is there.
       const double size = static_cast<double>(glm::length(at(found.preimage, parameters[i])));
-      worst.add(static_cast<double>(glm::length(point(at(curve, parameters[i])) - points[i])),
+      worst.add(static_cast<double>(glm::length(curve_point(at(curve, parameters[i])) - points[i])),
                 1e-17 / size + 1e-17 / (size * size),
                 [&] { return fmt::format("curve {}, point {}", k, i); });
     }
     // Unique: a curve through its own points is found again.
     std::vector<lvec3> again;
-    for (const long double t : parameters) again.push_back(glm::normalize(point(at(curve, t + 0.01L))));
+    for (const long double t : parameters) again.push_back(glm::normalize(curve_point(at(curve, t + 0.01L))));
     std::vector<long double> shifted = parameters;
     for (long double& t : shifted) t += 0.01L;
     const Interpolation same = interpolate(again, shifted);
@@ -107,7 +107,7 @@ TEST_CASE("inaccessible points are named", "[projective]") {
   const std::vector<lvec4> circle = curve_image(circle_through({1, 0, 0}, {0, 1, 0}, {-0.6L, 0.8L, 0}));
   std::vector<lvec3> points;
   const std::vector<long double> parameters{0, 0.25L, 0.5L, 0.75L, 1};
-  for (const long double t : parameters) points.push_back(glm::normalize(point(at(circle, t))));
+  for (const long double t : parameters) points.push_back(glm::normalize(curve_point(at(circle, t))));
   points[3] = {0, 0, 1};
   const Interpolation found = interpolate(points, parameters);
   CHECK(found.inaccessible == std::vector<std::size_t>{3});
@@ -124,7 +124,7 @@ TEST_CASE("circular splines are smooth (equation 36)", "[projective]") {
     REQUIRE(spline.preimage.size() == points.size());
     REQUIRE(spline.intervals.size() == points.size() - 1);
     for (std::size_t i = 0; i < points.size(); ++i)
-      worst.add(static_cast<double>(glm::length(point(delta(spline.preimage[i])) - points[i])), 1e-17,
+      worst.add(static_cast<double>(glm::length(curve_point(delta(spline.preimage[i])) - points[i])), 1e-17,
                 [&] { return fmt::format("spline {}, point {}", k, i); });
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       const lvec4 &before = spline.preimage[i - 1], &here = spline.preimage[i],
@@ -139,7 +139,7 @@ TEST_CASE("circular splines are smooth (equation 36)", "[projective]") {
       const lvec4 middle = delta(here);
       const auto derivative = [&](const lvec4& other) {  // at `here`, towards `other`
         const lvec4 d = 2.0L * (delta(here, other) - middle);
-        return (lvec3(d) - d.w * point(middle)) / middle.w;
+        return (lvec3(d) - d.w * curve_point(middle)) / middle.w;
       };
       const lvec3 end = -derivative(before) / spline.intervals[i - 1];
       const lvec3 start = derivative(after) / spline.intervals[i];

@@ -13,7 +13,7 @@
 namespace rondure {
 namespace {
 
-std::string complaint(const std::string& text) {
+std::string json_complaint(const std::string& text) {
   return message_of([&] { read_json_text("s.json", text); });
 }
 
@@ -120,9 +120,9 @@ TEST_CASE("text that is no JSON is refused with its place", "[scene]") {
   };
   for (const auto& [text, message] : table) {
     CAPTURE(text);
-    CHECK(first_line(complaint(text)) == message);
+    CHECK(first_line(json_complaint(text)) == message);
   }
-  CHECK(first_line(complaint(std::string("{}\0x", 4))) == "s.json:1:3: byte 0x00 is not UTF-8 text");
+  CHECK(first_line(json_complaint(std::string("{}\0x", 4))) == "s.json:1:3: byte 0x00 is not UTF-8 text");
 }
 
 TEST_CASE("nesting is refused where it gets too deep", "[scene]") {
@@ -130,23 +130,25 @@ TEST_CASE("nesting is refused where it gets too deep", "[scene]") {
     return std::string(static_cast<std::size_t>(depth), '[') +
            std::string(static_cast<std::size_t>(depth), ']');
   };
-  CHECK(complaint(nested(max_json_depth)) == "accepted");
-  CHECK(first_line(complaint(nested(max_json_depth + 1))) == "s.json:1:257: nested deeper than 256 levels");
-  CHECK(first_line(complaint(std::string(1000000, '['))) == "s.json:1:257: nested deeper than 256 levels");
+  CHECK(json_complaint(nested(max_json_depth)) == "accepted");
+  CHECK(first_line(json_complaint(nested(max_json_depth + 1))) ==
+        "s.json:1:257: nested deeper than 256 levels");
+  CHECK(first_line(json_complaint(std::string(1000000, '['))) ==
+        "s.json:1:257: nested deeper than 256 levels");
 }
 
 TEST_CASE("messages show the line and a caret", "[scene]") {
-  CHECK(complaint("{\n  \"a\": nul\n}") ==
+  CHECK(json_complaint("{\n  \"a\": nul\n}") ==
         "s.json:2:8: unexpected word nul; strings stand in double quotes\n"
         "  2 |   \"a\": nul\n"
         "    |        ^");
   // A tab takes one column, so does a character of several bytes; a carriage return is no part of the line.
-  CHECK(complaint("{\r\n\t\"\u00e9\u20ac\": nul\r\n}") ==
+  CHECK(json_complaint("{\r\n\t\"\u00e9\u20ac\": nul\r\n}") ==
         "s.json:2:11: unexpected word nul; strings stand in double quotes\n"
         "  2 |  \"\u00e9\u20ac\": nul\n"
         "    |        ^");
-  CHECK(complaint("[\"\x1b[31m\"]").find('\x1b') == std::string::npos);
-  const std::string far = complaint(fmt::format("[{0:5000}nul{0:5000}]", ""));
+  CHECK(json_complaint("[\"\x1b[31m\"]").find('\x1b') == std::string::npos);
+  const std::string far = json_complaint(fmt::format("[{0:5000}nul{0:5000}]", ""));
   const std::string excerpt = far.substr(far.find('\n') + 1);
   const std::size_t line_end = excerpt.find('\n');
   CHECK(excerpt.size() < 250);
@@ -198,9 +200,9 @@ TEST_CASE("random damage never passes unseen nor crashes", "[scene]") {
         text[at] = c;
       }
     }
-    const bool here = complaint(text) == "accepted";
+    const bool here = json_complaint(text) == "accepted";
     bool there = nlohmann::json::accept(text, true);
-    if (there && !here && complaint(text).find("stands twice") != std::string::npos) there = false;
+    if (there && !here && json_complaint(text).find("stands twice") != std::string::npos) there = false;
     accepted += here;
     if (here == there) continue;
     ++wrong;

@@ -12,7 +12,7 @@
 namespace rondure {
 namespace {
 
-std::string complaint(const std::string& text, const SceneOverrides& overrides = {}) {
+std::string late_complaint(const std::string& text, const SceneOverrides& overrides = {}) {
   return message_of([&] { StagedScene(text, overrides); });
 }
 
@@ -28,34 +28,35 @@ TEST_CASE("nets that no solver can bound are shown at their object", "[scene]") 
       "finely the patch is divided, so that it cannot be bounded";
   const std::string second =
       "  { \"type\": \"bezier\", \"patches\": [" + patch("1") + ", " + patch("-1") + "] }";
-  const std::string message = complaint("{ \"objects\": [\n  { \"type\": \"sphere\" },\n" + second + "\n] }");
+  const std::string message =
+      late_complaint("{ \"objects\": [\n  { \"type\": \"sphere\" },\n" + second + "\n] }");
   CHECK(first_line(message) == "test.json:3:3: objects[1]: patch 1: " + endless);
   CHECK(message.ends_with("...\n    |   ^"));
 
   const std::string named =
       "{ \"objects\": [ { \"type\": \"bezier\", \"name\": \"sail\", \"patches\": [" + patch("-1") + "] } ] }";
-  CHECK(first_line(complaint(named)) == "test.json:1:16: sail: patch 0: " + endless);
+  CHECK(first_line(late_complaint(named)) == "test.json:1:16: sail: patch 0: " + endless);
 
   // A projective transform sends the plane x = 2 to infinity, through the ball.
-  CHECK(complaint("{ \"objects\": [\n"
-                  "  { \"type\": \"sphere_tiling\", \"center\": [2, 0, 0],\n"
-                  "    \"transform\": [[1,0,0,0], [0,1,0,0], [0,0,1,0], [1,0,0,-2]] } ] }")
+  CHECK(late_complaint("{ \"objects\": [\n"
+                       "  { \"type\": \"sphere_tiling\", \"center\": [2, 0, 0],\n"
+                       "    \"transform\": [[1,0,0,0], [0,1,0,0], [0,0,1,0], [1,0,0,-2]] } ] }")
             .starts_with("test.json:2:3: objects[0]: patch 0: a weight is not positive near (u, v) = ("));
 
-  CHECK(complaint("{ \"objects\": [\n"
-                  "  { \"type\": \"bezier\", \"patches\": [ { \"degree\": [1, 1],\n"
-                  "    \"net\": [ [ [0,0,0,1], [1,0,0,1] ], [ [2,0,0,1], [3,0,0,1] ] ] } ] } ] }") ==
+  CHECK(late_complaint("{ \"objects\": [\n"
+                       "  { \"type\": \"bezier\", \"patches\": [ { \"degree\": [1, 1],\n"
+                       "    \"net\": [ [ [0,0,0,1], [1,0,0,1] ], [ [2,0,0,1], [3,0,0,1] ] ] } ] } ] }") ==
         "test.json:2:3: objects[0]: patch 0: has no area; its control points lie on a curve or in a point\n"
         "  2 |   { \"type\": \"bezier\", \"patches\": [ { \"degree\": [1, 1],\n"
         "    |   ^");
 }
 
 TEST_CASE("objects that are too large together are shown at their list", "[scene]") {
-  CHECK(complaint("{\n  \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n}") ==
+  CHECK(late_complaint("{\n  \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n}") ==
         "test.json:2:14: the scene is too large: its radius must be between 1e-60 and 1e+60\n"
         "  2 |   \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e70 } ]\n"
         "    |              ^");
-  CHECK(complaint(R"({ "objects": [ { "type": "sphere", "radius": 1e308 } ] })").find("is too large:") !=
+  CHECK(late_complaint(R"({ "objects": [ { "type": "sphere", "radius": 1e308 } ] })").find("is too large:") !=
         std::string::npos);
 }
 
@@ -66,7 +67,7 @@ TEST_CASE("a fault set on the command line is named without a place", "[scene]")
       "/objects/0={\"type\": \"bezier\", \"patches\": [{\"degree\": [1, 1], "
       "\"net\": [[[0,0,0,1],[1,0,0,1]],[[2,0,0,1],[3,0,0,1]]]}]}"};
   CHECK(
-      complaint(ball, overrides) ==
+      late_complaint(ball, overrides) ==
       "test.json: objects[0]: patch 0: has no area; its control points lie on a curve or in a point (set on "
       "the command line)");
 }
@@ -80,7 +81,7 @@ TEST_CASE("an image that is of no use is shown where the scene names it", "[scen
   };
   const std::string text = folder + "/text.exr";
   write_text_file(text, "no picture at all");
-  const std::string unread = complaint(scene_with(text));
+  const std::string unread = late_complaint(scene_with(text));
   CHECK(unread.starts_with("test.json:4:13: " + text + ": cannot read the image: "));
   CHECK(unread.ends_with("    |             ^"));
 
@@ -91,7 +92,7 @@ TEST_CASE("an image that is of no use is shown where the scene names it", "[scen
   film.whole[1].add(sample);
   const std::string nan = folder + "/nan.exr";
   write_exr(nan, film, {0, 0, "path", "newton", default_camera()});
-  CHECK(first_line(complaint(scene_with(nan))) ==
+  CHECK(first_line(late_complaint(scene_with(nan))) ==
         "test.json:4:13: " + nan + ": the image holds a value that is no radiance: nan");
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // The complaint of `read` about the object {"k": `value`}.
 template <class Read>
-std::string complaint(const std::string& value, Read read) {
+std::string read_complaint(const std::string& value, Read read) {
   return first_line(message_of([&] {
     const Document document = read_json_text("s.json", "{\"k\": " + value + "}");
     Params params(document.root, document.source.get(), "thing");
@@ -99,7 +99,7 @@ TEST_CASE("values of the wrong type or range say what they must be", "[scene]") 
   };
   for (const Row& row : table) {
     CAPTURE(row.value);
-    CHECK(complaint(row.value, row.read) == row.message);
+    CHECK(read_complaint(row.value, row.read) == row.message);
   }
 }
 

@@ -7,7 +7,7 @@
 namespace rondure {
 namespace {
 
-std::string complaint(const std::string& text) {
+std::string scene_complaint(const std::string& text) {
   Registry registry;
   register_builtins(registry);
   return message_of([&] { read_scene_text("s.json", text, registry); });
@@ -15,11 +15,11 @@ std::string complaint(const std::string& text) {
 
 // The same for one object, on line 1 from column 15.
 std::string object_complaint(const std::string& object) {
-  return first_line(complaint("{ \"objects\": [" + object + "] }"));
+  return first_line(scene_complaint("{ \"objects\": [" + object + "] }"));
 }
 
 TEST_CASE("a complaint shows file, line, column, excerpt and remedy", "[scene]") {
-  CHECK(complaint("{\n  \"objects\": [\n\t{ \"type\": \"sphere\", \"radius\": \"big\" }\n  ]\n}") ==
+  CHECK(scene_complaint("{\n  \"objects\": [\n\t{ \"type\": \"sphere\", \"radius\": \"big\" }\n  ]\n}") ==
         "s.json:3:32: \"radius\" must be a number greater than 0, found \"big\"\n"
         "  3 |  { \"type\": \"sphere\", \"radius\": \"big\" }\n"
         "    |                                ^");
@@ -107,7 +107,7 @@ TEST_CASE("scenes that lack or misname something say what and where", "[scene]")
   };
   for (const auto& [text, message] : table) {
     CAPTURE(text);
-    CHECK(first_line(complaint(text)) == message);
+    CHECK(first_line(scene_complaint(text)) == message);
   }
 }
 
@@ -201,9 +201,10 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
 }
 
 TEST_CASE("an unknown material names the nearest one", "[scene]") {
-  CHECK(first_line(complaint("{ \"materials\": { \"clay\": {}, \"glass\": {\"type\": \"dielectric\"} },\n"
-                             "  \"objects\": [{\"type\": \"sphere\", \"material\": \"clya\"}] }")) ==
-        "s.json:2:46: unknown material \"clya\"; did you mean \"clay\"?");
+  CHECK(
+      first_line(scene_complaint("{ \"materials\": { \"clay\": {}, \"glass\": {\"type\": \"dielectric\"} },\n"
+                                 "  \"objects\": [{\"type\": \"sphere\", \"material\": \"clya\"}] }")) ==
+      "s.json:2:46: unknown material \"clya\"; did you mean \"clay\"?");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::size_t patches_of(const std::string& object) {
   return surface_of(scene, 0).patches.size();
 }
 
-const std::string square =
+const std::string square_object =
     R"({"type": "bezier", "patches": [{"kind": "tensor", "degree": [1, 1],
         "net": [[[0,0,0,1],[0,1,0,1]],[[1,0,0,1],[1,1,0,1]]]}], )";
 
@@ -79,13 +79,13 @@ TEST_CASE("each line and each ball is drawn once", "[scene]") {
         12 * 3 + 8 * 6);
   // The pole is a point, not a curve: four meridians, the equator in four.
   CHECK(patches_of(R"({"type": "sphere_octant", "show": ["boundary"]})") >= 3 * 3 + 3 * 6);
-  CHECK(patches_of(square + R"("show": ["net"]})") == 4 * 3 + 4 * 6);
-  CHECK(patches_of(square + R"("show": ["boundary"]})") == 4 * 3 + 4 * 6);
-  CHECK(patches_of(square + R"("show": ["net", "boundary"]})") == 4 * 3 + 4 * 6);
-  CHECK(patches_of(square + R"("show": ["isolines"], "isolines": 3})") == 4 * 3 + 8 * 6);
-  CHECK(patches_of(square + R"("show": ["isolines", "boundary"], "isolines": 3})") == 8 * 3 + 4 * 6);
-  CHECK(patches_of(square + R"("show": ["control_surface"]})") == 1);
-  CHECK(scene_of(square + R"("show": ["surface", "isolines"], "isolines": 1})").objects.size() == 1);
+  CHECK(patches_of(square_object + R"("show": ["net"]})") == 4 * 3 + 4 * 6);
+  CHECK(patches_of(square_object + R"("show": ["boundary"]})") == 4 * 3 + 4 * 6);
+  CHECK(patches_of(square_object + R"("show": ["net", "boundary"]})") == 4 * 3 + 4 * 6);
+  CHECK(patches_of(square_object + R"("show": ["isolines"], "isolines": 3})") == 4 * 3 + 8 * 6);
+  CHECK(patches_of(square_object + R"("show": ["isolines", "boundary"], "isolines": 3})") == 8 * 3 + 4 * 6);
+  CHECK(patches_of(square_object + R"("show": ["control_surface"]})") == 1);
+  CHECK(scene_of(square_object + R"("show": ["surface", "isolines"], "isolines": 1})").objects.size() == 1);
   // A cubic triangle: 18 legs, 10 points, 9 flat triangles; three sides, straight or on great circles.
   CHECK(patches_of(R"({"type": "iss", "show": ["net"]})") == 18 * 3 + 10 * 6);
   CHECK(patches_of(R"({"type": "iss", "show": ["control_surface"]})") == 9);
@@ -114,8 +114,8 @@ TEST_CASE("wires are round and of their radius wherever the object stands", "[sc
       worst.add(off, 1e-13, [&] { return fmt::format("{} patch {}", object, k); });
     }
   };
-  // The square's sides, scaled unevenly and moved: cylinders between the images of their ends.
-  check(square + R"("show": ["boundary"], "wire": 0.02, "radius": 3, "center": [5, 6, 7],
+  // The square_object's sides, scaled unevenly and moved: cylinders between the images of their ends.
+  check(square_object + R"("show": ["boundary"], "wire": 0.02, "radius": 3, "center": [5, 6, 7],
                     "transform": [{"scale": [1, 2, 4]}]})",
         [](const dvec3& p) {
           const dvec3 c[4] = {{5, 12, 28}, {8, 12, 28}, {8, 18, 28}, {5, 18, 28}};
@@ -200,7 +200,7 @@ TEST_CASE("what cannot be shown is said", "[scene]") {
              Catch::Contains("s.json:1:") && Catch::Contains("no patches, and so no lines or nets"));
   CHECK_THAT(says(R"({"type": "iss", "patches": [{"sphere": [0,1,2]}], "show": ["domain"]})"),
              Catch::EndsWith("there is nothing to show of \"domain\" here"));
-  CHECK_THAT(says(square + R"("show": ["isolines"], "isolines": 1})"),
+  CHECK_THAT(says(square_object + R"("show": ["isolines"], "isolines": 1})"),
              Catch::EndsWith("there is nothing to show of \"isolines\" here"));
   CHECK_THAT(says(R"({"type": "bezier", "show": ["boundary"], "patches": [{"kind": "tensor", "degree": [1, 1],
         "net": [[[0,0,0,1],[0,1,0,1]],[[1,0,0,-1],[1,1,0,1]]]}]})"),

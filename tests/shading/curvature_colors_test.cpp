@@ -17,7 +17,7 @@ using namespace rondure;
 namespace {
 
 using Kind = CurvatureColors::Kind;
-constexpr int grid = 9;
+constexpr int color_grid = 9;
 
 // The end and middle colours, as documented, mixed by the share of the range.
 const dvec3 blue(0.02, 0.1, 0.55), grey(0.8), red(0.6, 0.03, 0.03);
@@ -58,9 +58,10 @@ TEST_CASE("a saddle has the colours of its curvature", "[shading]") {
   const Net saddle = bilinear({-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1});
   const CurvatureColors gaussian{Kind::gaussian, -1.0, 0.0}, mean{Kind::mean, -0.2, 0.3};
   double worst = 0.0;
-  for (int i = 0; i < grid; ++i) {
-    for (int j = 0; j < grid; ++j) {
-      const double u = i / (grid - 1.0), v = j / (grid - 1.0), x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
+  for (int i = 0; i < color_grid; ++i) {
+    for (int j = 0; j < color_grid; ++j) {
+      const double u = i / (color_grid - 1.0), v = j / (color_grid - 1.0), x = 2.0 * u - 1.0,
+                   y = 2.0 * v - 1.0;
       const double g = 1.0 + x * x + y * y;
       worst = std::fmax(worst, difference(curvature_color(gaussian, saddle, u, v, dvec3(0.0)),
                                           expected(-1.0 / (g * g), -1.0, 0.0)));

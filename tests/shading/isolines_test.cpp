@@ -13,9 +13,9 @@ using namespace rondure;
 
 namespace {
 
-// A grid of parameters that avoids the lines themselves.
-constexpr int grid = 61;
-double grid_parameter(int i) { return (i + 0.5) / grid; }
+// A line_grid of parameters that avoids the lines themselves.
+constexpr int line_grid = 61;
+double grid_parameter(int i) { return (i + 0.5) / line_grid; }
 
 // The angle of a quarter circle's rational quadratic with weights 1, sqrt(1/2), 1 at parameter t.
 double quarter_angle(double t) {
@@ -36,8 +36,8 @@ TEST_CASE("isolines of the octant are bands about meridians and parallels", "[sh
   const dvec3 pole = net_point(net, 0.5, 1.0), start = net_point(net, 0.0, 0.0),
               end = net_point(net, 1.0, 0.0);
   int wrong = 0, drawn = 0, left_out = 0;
-  for (int i = 0; i < grid; ++i) {
-    for (int j = 0; j < grid; ++j) {
+  for (int i = 0; i < line_grid; ++i) {
+    for (int j = 0; j < line_grid; ++j) {
       const double u = grid_parameter(i), v = grid_parameter(j);
       const dvec3 p = net_point(net, u, v);
       double excess = INFINITY;  // of the distance to a line over half of its width
@@ -59,10 +59,11 @@ TEST_CASE("isolines of the octant are bands about meridians and parallels", "[sh
       wrong += line != (excess < 0.0);
     }
   }
-  INFO(drawn << " of " << grid * grid << " points on a line, " << left_out << " too near to its edge");
+  INFO(drawn << " of " << line_grid * line_grid << " points on a line, " << left_out
+             << " too near to its edge");
   CHECK(wrong == 0);
-  CHECK(drawn > grid * grid / 10);
-  CHECK(drawn < grid * grid / 2);
+  CHECK(drawn > line_grid * line_grid / 10);
+  CHECK(drawn < line_grid * line_grid / 2);
   CHECK(left_out < 5);
 }
 

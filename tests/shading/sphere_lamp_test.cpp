@@ -18,9 +18,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double radius = 0.7;
-constexpr dvec3 center{0.5, -0.25, 1.0};
+constexpr dvec3 lamp_center{0.5, -0.25, 1.0};
 
-std::string lamp_scene(const std::string& extra = "") {
+std::string sphere_lamp_scene(const std::string& extra = "") {
   return R"({ "materials": { "lamp": { "albedo": 0, "emission": 2 }, "paper": { "albedo": 0.5 } },
     "lights": [], "objects": [ { "type": "sphere", "material": "lamp", "center": [0.5, -0.25, 1], "radius": 0.7 })" +
          extra + " ] }";
@@ -43,13 +43,13 @@ Moments moments(int count, Value&& value) {
 }
 
 TEST_CASE("the irradiance of a sphere lamp is the closed form, at any distance", "[shading]") {
-  const StagedScene s(lamp_scene());
+  const StagedScene s(sphere_lamp_scene());
   constexpr int count = 1 << 14;
   for (const double distance : {1.00002, 1.05, 1.5, 4.0, 100.0, 1e6}) {
     // A surface that sees the whole lamp: its tilt is less than the angle from the lamp's rim to 90 degrees.
     for (const double tilt : {0.0, 0.9 * std::acos(1.0 / distance)}) {
       const Frame frame = frame_about(glm::normalize(dvec3(-1, 2, 0.5)));
-      const dvec3 point = center - distance * radius * frame.z;
+      const dvec3 point = lamp_center - distance * radius * frame.z;
       const dvec3 normal = std::cos(tilt) * frame.z + std::sin(tilt) * frame.x;
       const auto by_cone = [&](Sampler& sampler) {
         const double choice = sampler.next_1d();
@@ -82,10 +82,10 @@ TEST_CASE("the irradiance of a sphere lamp is the closed form, at any distance",
 }
 
 TEST_CASE("a sphere lamp does not hide its own samples", "[shading]") {
-  const StagedScene s(lamp_scene());
+  const StagedScene s(sphere_lamp_scene());
   for (const double distance : {1.00002, 1.001, 2.0, 1e6}) {
     Hit from;
-    from.point = center + distance * radius * glm::normalize(dvec3(1, -2, 0.3));
+    from.point = lamp_center + distance * radius * glm::normalize(dvec3(1, -2, 0.3));
     int hidden = 0;
     for (int i = 0; i < 10000; ++i) {
       Sampler sampler(8, i, 0, 0);
@@ -101,9 +101,9 @@ TEST_CASE("a sphere lamp does not hide its own samples", "[shading]") {
 }
 
 TEST_CASE("the density of directions to a sphere lamp integrates to one", "[shading]") {
-  const StagedScene s(lamp_scene());
+  const StagedScene s(sphere_lamp_scene());
   for (const double distance : {1.00002, 1.2, 3.0}) {
-    const dvec3 point = center + distance * radius * glm::normalize(dvec3(1, 1, -1));
+    const dvec3 point = lamp_center + distance * radius * glm::normalize(dvec3(1, 1, -1));
     constexpr int count = 1 << 16;
     const Moments m = moments(count, [&](Sampler& sampler) {
       const Hit hit = s.tracer.closest(Ray{point, sample_sphere(sampler.next_2d())});
@@ -116,32 +116,32 @@ TEST_CASE("the density of directions to a sphere lamp integrates to one", "[shad
 }
 
 TEST_CASE("a sphere lamp is sampled by area from inside and from very near", "[shading]") {
-  CHECK_FALSE(sphere_cone(center, center, radius));
-  CHECK_FALSE(sphere_cone(center + dvec3(0, 0, 0.99 * radius), center, radius));
-  CHECK_FALSE(sphere_cone(center + dvec3(0, 0, 1.00001 * radius), center, radius));
-  CHECK(sphere_cone(center + dvec3(0, 0, 1.00002 * radius), center, radius));
-  CHECK_FALSE(sphere_cone(center + dvec3(0, 0, 2.0), center, 0.0));
+  CHECK_FALSE(sphere_cone(lamp_center, lamp_center, radius));
+  CHECK_FALSE(sphere_cone(lamp_center + dvec3(0, 0, 0.99 * radius), lamp_center, radius));
+  CHECK_FALSE(sphere_cone(lamp_center + dvec3(0, 0, 1.00001 * radius), lamp_center, radius));
+  CHECK(sphere_cone(lamp_center + dvec3(0, 0, 1.00002 * radius), lamp_center, radius));
+  CHECK_FALSE(sphere_cone(lamp_center + dvec3(0, 0, 2.0), lamp_center, 0.0));
   // Straight above, the density per solid angle of points spread over 4 pi R^2, seen from a gap of g: g^2 of
   // that. Half an ulp of z is 10^-11 of the gap.
-  const StagedScene s(lamp_scene());
-  const dvec3 point = center + dvec3(0, 0, 1.00001 * radius);
+  const StagedScene s(sphere_lamp_scene());
+  const dvec3 point = lamp_center + dvec3(0, 0, 1.00001 * radius);
   const Hit below = s.tracer.closest(Ray{point, {0, 0, -1}});
   REQUIRE(below);
   CHECK(s.world.light_pdf(point, below) == Approx(1e-10 / (4.0 * pi)).epsilon(1e-9));
   // Inside, nothing shines.
-  const LightSample dark = s.world.sample_light(center + dvec3(0.1, 0.2, 0.3), 0.5, {0.3, 0.6});
+  const LightSample dark = s.world.sample_light(lamp_center + dvec3(0.1, 0.2, 0.3), 0.5, {0.3, 0.6});
   CHECK(dark.pdf == 0.0);
 }
 
 TEST_CASE("samples in the cone end on the sphere, rim and all", "[shading]") {
   WorstCase worst;
   for (const double distance : {1.00002, 1.1, 3.0, 1e3, 1e8}) {
-    const dvec3 from = center + distance * radius * glm::normalize(dvec3(0.2, -1, 0.4));
-    const auto cone = sphere_cone(from, center, radius);
+    const dvec3 from = lamp_center + distance * radius * glm::normalize(dvec3(0.2, -1, 0.4));
+    const auto cone = sphere_cone(from, lamp_center, radius);
     REQUIRE(cone);
     for (int i = 0; i <= 64; ++i) {
       const SphereCone::Sample sample = cone->sample({i / 64.0, i * 0.618 - std::floor(i * 0.618)});
-      const double off = glm::length(from + sample.distance * sample.direction - center) / radius - 1.0;
+      const double off = glm::length(from + sample.distance * sample.direction - lamp_center) / radius - 1.0;
       // Rounding of coordinates at that distance, eight ulps; at the rim the way's rounding counts once more.
       worst.add(std::abs(off), 8.0 * 0x1p-52 * distance * (i == 64 ? 4.0 : 1.0),
                 [&] { return fmt::format("{} radii, sample {}: {}", distance, i, off); });
@@ -155,7 +155,7 @@ TEST_CASE("light samples and scattered rays share a sphere lamp without loss", "
   // Paper under the lamp, seen along z at the point straight below its centre: albedo L (R / d)^2.
   const std::string paper = R"(, { "type": "bezier", "material": "paper", "patches": [ { "degree": [1, 1],
     "net": [ [ [-9, -9, 0, 1], [-9, 9, 0, 1] ], [ [9, -9, 0, 1], [9, 9, 0, 1] ] ] } ] })";
-  std::string text = lamp_scene(paper);
+  std::string text = sphere_lamp_scene(paper);
   text.insert(1,
               R"( "camera": { "type": "orthographic", "origin": [0.5, -0.25, 0.2], "target": [0.5, -0.25, 0],
     "up": [0, 1, 0], "height": 1e-6 }, "film": { "resolution": [8, 8] }, "sampling": { "spp": 256 },)");

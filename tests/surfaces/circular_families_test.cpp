@@ -30,7 +30,7 @@ const std::string latlong = R"("corners": [[0,-1,-0.5],[0.8,-0.6,-0.5],[0.8,-0.6
 
 Surface quad(const std::string& rest) { return build_family(R"({"type": "circular_quad", )" + rest + "}"); }
 
-json reference(const std::string& name) {
+json dhj_entry(const std::string& name) {
   std::ifstream file(source_folder() + "/tests/data/dhj_nets.json");
   for (const json& entry : json::parse(file)) {
     if (entry["name"] == name) return entry;
@@ -52,7 +52,7 @@ TEST_CASE("patches of degree (2, 4) have the reference's nets", "[surfaces]") {
     const Surface surface = build_family(json::parse(file)["object"].dump());
     const auto& net = std::get<TensorNet>(surface.patches.at(0));
     REQUIRE((net.m == 2 && net.n == 4));
-    const json expected = reference(name)["net"];
+    const json expected = dhj_entry(name)["net"];
     for (int i = 0; i <= 2; ++i) {
       for (int j = 0; j <= 4; ++j) {
         for (int d = 0; d < 4; ++d) {
@@ -213,7 +213,7 @@ TEST_CASE("sides that run round one circle bound the cap on their left", "[surfa
 // A cap of `away` radians about the pole between four arcs of 90 degrees.
 namespace {
 
-std::string cap(double away) {
+std::string cap_corners(double away) {
   const double r = std::sin(away), z = std::cos(away), h = r * std::sqrt(0.5);
   return fmt::format(
       R"("corners": [[{0}, 0, {1}], [0, {0}, {1}], [-{0}, 0, {1}], [0, -{0}, {1}]], "arcs": [
@@ -239,7 +239,7 @@ int negative_weights(const Surface& surface) {
 
 TEST_CASE("a shape of positive weights is sought where the even one has none", "[surfaces]") {
   // A cap of 80 degrees has them at once; nearly a hemisphere, at another shape; more than it, never.
-  const Surface small = quad(cap(1.2)), half = quad(cap(1.5)), large = quad(cap(2.0));
+  const Surface small = quad(cap_corners(1.2)), half = quad(cap_corners(1.5)), large = quad(cap_corners(2.0));
   CHECK(negative_weights(small) == 0);
   CHECK(std::isnan(note(small, "positive_weights")));
   CHECK(negative_weights(half) == 0);
@@ -253,7 +253,7 @@ TEST_CASE("a shape of positive weights is sought where the even one has none", "
   const std::string shape =
       fmt::format(R"(, "quartic": "{}", "shape": [{}, {}, {}, {}])", found.n == 4 ? "v" : "u",
                   note(half, "shape_0"), note(half, "shape_1"), note(half, "shape_2"), note(half, "shape_3"));
-  const Surface given = quad(cap(1.5) + shape);
+  const Surface given = quad(cap_corners(1.5) + shape);
   CHECK(std::isnan(note(given, "positive_weights")));
   const auto& again = std::get<TensorNet>(given.patches.at(0));
   REQUIRE((again.m == found.m && again.n == found.n));
@@ -267,8 +267,8 @@ TEST_CASE("a shape of positive weights is sought where the even one has none", "
 
 TEST_CASE("a shape that is given is obeyed", "[surfaces]") {
   // Even where it has weights of both signs, and another has not.
-  CHECK(negative_weights(quad(cap(1.5) + R"(, "shape": 1)")) > 0);
-  CHECK(negative_weights(quad(cap(1.5) + R"(, "shape": [1, 1, 1, 0])")) > 0);
+  CHECK(negative_weights(quad(cap_corners(1.5) + R"(, "shape": 1)")) > 0);
+  CHECK(negative_weights(quad(cap_corners(1.5) + R"(, "shape": [1, 1, 1, 0])")) > 0);
   const auto corner = [](const Surface& surface) {
     return points_of(surface.patches.at(0)).back().w / points_of(surface.patches.at(0)).front().w;
   };

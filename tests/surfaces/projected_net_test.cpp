@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 // "3/8" or decimals.
-double number(const json& value) {
+double number_in(const json& value) {
   if (value.is_number()) return value.get<double>();
   const std::string text = value.get<std::string>();
   const std::size_t slash = text.find('/');
@@ -26,13 +26,13 @@ double number(const json& value) {
 }
 
 json numbers(const json& value) {
-  if (value.is_string()) return number(value);
+  if (value.is_string()) return number_in(value);
   json out = value;
   for (json& item : out) item = numbers(item);
   return out;
 }
 
-dvec4 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2]), number(p[3])}; }
+dvec4 point_in(const json& p) { return {number_in(p[0]), number_in(p[1]), number_in(p[2]), number_in(p[3])}; }
 
 // An object with this one net.
 std::string object_with(const json& preimage, int m, int n) {
@@ -67,7 +67,7 @@ TEST_CASE("projected nets are those of the reference", "[surfaces]") {
     const auto check = [&](const dvec4& found, const json& expected, const std::string& where) {
       // The preimage's coordinates and the image's are rounded once each: |p|^2 (2 + 1) half ulps, and as
       // much for the reference.
-      worst.add(glm::length(found - point(expected)), 8.0 * 0x1p-53 * largest,
+      worst.add(glm::length(found - point_in(expected)), 8.0 * 0x1p-53 * largest,
                 [&] { return entry["name"].get<std::string>() + " " + where; });
     };
     const json& expected = entry["net"];
@@ -87,8 +87,8 @@ TEST_CASE("projected nets are those of the reference", "[surfaces]") {
       }
     }
     for (const json& s : entry["samples"]) {
-      const dvec3 at(number(s["point"][0]), number(s["point"][1]), number(s["point"][2]));
-      worst.add(glm::distance(net_point(net, number(s["u"]), number(s["v"])), at), 16.0 * 0x1p-52,
+      const dvec3 at(number_in(s["point"][0]), number_in(s["point"][1]), number_in(s["point"][2]));
+      worst.add(glm::distance(net_point(net, number_in(s["u"]), number_in(s["v"])), at), 16.0 * 0x1p-52,
                 [&] { return entry["name"].get<std::string>() + " sample"; });
     }
   }

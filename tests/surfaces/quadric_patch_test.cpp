@@ -17,14 +17,14 @@
 namespace rondure {
 namespace {
 
-struct Case {
+struct QuadricCase {
   const char* parameters;
   Quadric quadric;
   std::size_t patches;
   bool closed = false;
 };
 
-Quadric plain(QuadricKind kind, const lvec3& axes) { return {kind, axes, lmat4(1)}; }
+Quadric plain_quadric(QuadricKind kind, const lvec3& axes) { return {kind, axes, lmat4(1)}; }
 
 // z = x y.
 const Quadric saddle{QuadricKind::hyperbolic_paraboloid,
@@ -34,42 +34,42 @@ const Quadric saddle{QuadricKind::hyperbolic_paraboloid,
                       {0, 0, 1, 0},
                       {0, 0, 0, 1}}};
 
-const Case cases[] = {
+const QuadricCase quadric_cases[] = {
     {R"("semi_axes": [2, 1, 0.5], "surface": {"type": "sphere_tiling", "topology": "cube_2_4"})",
-     plain(QuadricKind::ellipsoid, {2, 1, 0.5L}), 6, true},
+     plain_quadric(QuadricKind::ellipsoid, {2, 1, 0.5L}), 6, true},
     {R"("matrix": [[1,0,0,-1],[0,4,0,0],[0,0,9,0],[-1,0,0,-3]], "surface": {"type": "sphere_octant"})",
      {QuadricKind::ellipsoid, {2, 1, 2 / 3.0L}, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 1}}},
      8,
      true},
     {R"("quadric": "two_sheets", "semi_axes": [1, 2, 0.5], "surface": {"type": "sphere_cap", "z_max": -0.4})",
-     plain(QuadricKind::two_sheets, {1, 2, 0.5L}), 1},
+     plain_quadric(QuadricKind::two_sheets, {1, 2, 0.5L}), 1},
     {R"("quadric": "two_sheets", "surface": {"type": "circular_quad",
          "corners": [[-1,-1,-2],[-1,1,-2],[1,1,-2],[1,-1,-2]]})",
-     plain(QuadricKind::two_sheets, {1, 1, 1}), 1},
+     plain_quadric(QuadricKind::two_sheets, {1, 1, 1}), 1},
     {R"("quadric": "elliptic_paraboloid", "semi_axes": [1, 2, 3], "surface": {"type": "sphere_cap", "z_max": 0.2})",
-     plain(QuadricKind::elliptic_paraboloid, {1, 2, 3}), 1},
+     plain_quadric(QuadricKind::elliptic_paraboloid, {1, 2, 3}), 1},
     {R"("quadric": "elliptic_paraboloid", "surface": {"type": "circular_triangle",
          "corners": [[1,0,-1],[-1,-1,-1],[-1,1,-1]]})",
-     plain(QuadricKind::elliptic_paraboloid, {1, 1, 1}), 1},
+     plain_quadric(QuadricKind::elliptic_paraboloid, {1, 1, 1}), 1},
     {R"("quadric": "one_sheet", "semi_axes": [1, 2, 0.5], "rulings": [[-30, 40], [-20, 35]])",
-     plain(QuadricKind::one_sheet, {1, 2, 0.5L}), 1},
+     plain_quadric(QuadricKind::one_sheet, {1, 2, 0.5L}), 1},
     // Between two parallels.
     {R"("quadric": "one_sheet", "preimage": [{"degree": [1, 1], "net": [
          [[1,0,0.5,0.8660254],[1,0,-0.5,0.8660254]],
          [[0.70710678,0.70710678,0.96592583,0.25881905],[0.70710678,0.70710678,0.25881905,0.96592583]]]}])",
-     plain(QuadricKind::one_sheet, {1, 1, 1}), 1},
+     plain_quadric(QuadricKind::one_sheet, {1, 1, 1}), 1},
     {R"("quadric": "hyperbolic_paraboloid", "semi_axes": [1, 2, 3], "rulings": [[-1, 2], [-2, 1]])",
-     plain(QuadricKind::hyperbolic_paraboloid, {1, 2, 3}), 1},
+     plain_quadric(QuadricKind::hyperbolic_paraboloid, {1, 2, 3}), 1},
     {R"("matrix": [[0,1,0,0],[1,0,0,0],[0,0,0,-1],[0,0,-1,0]], "rulings": [[-1, 1], [-1, 1]])", saddle, 1},
     // Two parallels and two meridians; then sides that only degree (2, 4) fits.
     {R"("quadric": "one_sheet", "corners": [[1.25,0,-0.75],[0,1.25,-0.75],[0,1.25,0.75],[1.25,0,0.75]],
          "sections": [{"plane": [0,0,1,-0.75]}, null, {"plane": [0,0,1,0.75]}, null])",
-     plain(QuadricKind::one_sheet, {1, 1, 1}), 1},
+     plain_quadric(QuadricKind::one_sheet, {1, 1, 1}), 1},
     {R"("quadric": "one_sheet", "semi_axes": [2, 2, 2], "corners": [[2.5,0,-1.5],[0,2,0],[0,2.5,1.5],[2.5,0,1.5]])",
-     plain(QuadricKind::one_sheet, {2, 2, 2}), 1},
+     plain_quadric(QuadricKind::one_sheet, {2, 2, 2}), 1},
     {R"("matrix": [[1,0,0,0],[0,-1,0,0],[0,0,0,-0.5],[0,0,-0.5,0]],
          "corners": [[-1,-1,0],[1,-1,0],[1.5,1,1.25],[-1,1,0]], "sections": [null, {"through": [1.25,0.5,1.3125]}, null, null])",
-     plain(QuadricKind::hyperbolic_paraboloid, {1, 1, 1}), 1}};
+     plain_quadric(QuadricKind::hyperbolic_paraboloid, {1, 1, 1}), 1}};
 
 std::string object(const char* parameters) {
   return fmt::format(R"({{"type": "quadric_patch", {}}})", parameters);
@@ -86,7 +86,7 @@ double distance_from(const lmat4& matrix, const dvec3& p) {
 TEST_CASE("quadric patches lie on their quadric", "[surfaces]") {
   NetMaker make(61);
   WorstCase worst;
-  for (const Case& c : cases) {
+  for (const QuadricCase& c : quadric_cases) {
     INFO(c.parameters);
     const Surface surface = build_family(object(c.parameters));
     REQUIRE(surface.patches.size() == c.patches);
@@ -112,7 +112,7 @@ TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
   NetMaker make(62);
   WorstCase worst;
   int lost = 0, invented = 0, hits = 0, rays = 0;
-  for (const Case& c : cases) {
+  for (const QuadricCase& c : quadric_cases) {
     const Surface surface = build_family(object(c.parameters));
     const lmat4 matrix = matrix_of(c.quadric);
     for (const Solver solver : {Solver::newton, Solver::clipping}) {
@@ -155,9 +155,9 @@ TEST_CASE("rays meet quadric patches where the equation says", "[surfaces]") {
 
 TEST_CASE("on a closed ellipsoid every line meets as many patches as roots", "[surfaces]") {
   NetMaker make(63);
-  const Surface surface = build_family(object(cases[0].parameters));
+  const Surface surface = build_family(object(quadric_cases[0].parameters));
   const Tracer tracer({{surface, Solver::newton}});
-  const lmat4 matrix = matrix_of(cases[0].quadric);
+  const lmat4 matrix = matrix_of(quadric_cases[0].quadric);
   int wrong = 0, twice = 0;
   for (int k = 0; k < 2000; ++k) {
     Ray ray;

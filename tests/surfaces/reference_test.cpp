@@ -17,13 +17,13 @@ namespace {
 using Big = boost::multiprecision::cpp_bin_float_50;
 using nlohmann::json;
 
-struct Case {
+struct CobbCase {
   const char* name;    // in cobb_nets.json
   const char* object;  // the same surface as an object
   double scale;        // Table 3 is nine times our net
 };
 
-const Case cases[] = {
+const CobbCase cobb_cases[] = {
     {"hemisphere", R"({"type": "sphere_cap"})", 1.0},
     {"hemisphere", R"({"type": "sphere_tiling", "topology": "hemispheres"})", 1.0},
     {"cap_3_5", R"({"type": "sphere_cap", "z_max": 0.6, "middle_weight": 1})", 9.0},
@@ -33,7 +33,7 @@ const Case cases[] = {
     {"cube_face", R"({"type": "sphere_tiling", "topology": "cube"})", 1.0},
     {"octant", R"({"type": "sphere_octant"})", 1.0}};
 
-json reference(const std::string& name) {
+json cobb_entry(const std::string& name) {
   static const json all = reference_data("cobb_nets.json");
   return reference_entry(all, name);
 }
@@ -42,8 +42,8 @@ json reference(const std::string& name) {
 
 TEST_CASE("nets are the tabulated ones, rounded once", "[surfaces]") {
   WorstCase worst;
-  for (const Case& c : cases) {
-    const json expected = reference(c.name);
+  for (const CobbCase& c : cobb_cases) {
+    const json expected = cobb_entry(c.name);
     const Surface surface = build_family(c.object);
     const auto& net = std::get<TensorNet>(surface.patches.front());
     REQUIRE(net.m == expected["degree"][0].get<int>());
@@ -77,8 +77,8 @@ TEST_CASE("nets are the tabulated ones, rounded once", "[surfaces]") {
 TEST_CASE("points and normals are the tabulated ones", "[surfaces]") {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   WorstCase points, normals;
-  for (const Case& c : cases) {
-    const json expected = reference(c.name);
+  for (const CobbCase& c : cobb_cases) {
+    const json expected = cobb_entry(c.name);
     const Net net = build_family(c.object).patches.front();
     double weight = 0.0;
     for (const dvec4& p : points_of(net)) weight = std::max(weight, std::abs(p.w));

@@ -101,11 +101,11 @@ double area(const Net& net) {
   return sum / (cells * cells);
 }
 
-using Edge = std::vector<dvec4>;
+using EdgePoints = std::vector<dvec4>;
 
 // The four boundary rows, in the order of counter-clockwise travel in (u, v).
-std::vector<Edge> edges(const TensorNet& net) {
-  std::vector<Edge> all(4);
+std::vector<EdgePoints> edges(const TensorNet& net) {
+  std::vector<EdgePoints> all(4);
   for (int i = 0; i <= net.m; ++i) all[0].push_back(net.at(i, 0));
   for (int j = 0; j <= net.n; ++j) all[1].push_back(net.at(net.m, j));
   for (int i = net.m; i >= 0; --i) all[2].push_back(net.at(i, net.n));
@@ -113,13 +113,13 @@ std::vector<Edge> edges(const TensorNet& net) {
   return all;
 }
 
-std::string bytes(const Edge& edge) {
+std::string bytes(const EdgePoints& edge) {
   std::string text(edge.size() * sizeof(dvec4), '\0');
   std::memcpy(text.data(), edge.data(), text.size());
   return text;
 }
 
-bool collapsed(const Edge& edge) {
+bool collapsed(const EdgePoints& edge) {
   return glm::length(dvec3(edge.front()) / edge.front().w - dvec3(edge.back()) / edge.back().w) < 1e-6;
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("neighbours share their edges bit for bit", "[surfaces]") {
     std::map<std::string, int> seen;
     int count = 0;
     for (const Net& net : surface.patches) {
-      for (Edge edge : edges(std::get<TensorNet>(net))) {
+      for (EdgePoints edge : edges(std::get<TensorNet>(net))) {
         if (collapsed(edge)) continue;
         ++count;
         ++seen[bytes(edge)];

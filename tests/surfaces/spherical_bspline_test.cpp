@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-json reference() {
+json bspline_reference() {
   std::ifstream file(source_folder() + "/tests/data/dhj_bspline_surface.json");
   return json::parse(file);
 }
@@ -39,7 +39,7 @@ std::string random_net(NetMaker& make, int rows, int columns) {
 }  // namespace
 
 TEST_CASE("the reference's B-spline surface, piece by piece", "[surfaces]") {
-  const json data = reference();
+  const json data = bspline_reference();
   const Surface surface = build_family(data["object"].dump());
   REQUIRE(surface.patches.size() == data["pieces"].size());
   WorstCase worst;

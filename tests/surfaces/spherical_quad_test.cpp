@@ -15,7 +15,7 @@ namespace {
 
 const std::string face = "[[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]]";
 
-std::string quad(const std::string& corners, const std::string& rest = "") {
+std::string quad_text(const std::string& corners, const std::string& rest = "") {
   return R"({"type": "spherical_quad", "corners": )" + corners + (rest.empty() ? "" : ", " + rest) + "}";
 }
 
@@ -26,7 +26,7 @@ Net net_of(const std::string& text) { return build_family(text).patches.front();
 TEST_CASE("a face of the cube is a spherical quad", "[surfaces]") {
   const Net cube = build_family(R"({"type": "sphere_tiling"})").patches[2];  // about +x
   for (const char* weights : {R"("corner_weights": "unit")", R"("corner_weights": "matched")"}) {
-    const Net net = net_of(quad(face, weights));
+    const Net net = net_of(quad_text(face, weights));
     WorstCase worst;
     for (int i = 0; i <= 4; ++i) {
       for (int j = 0; j <= 4; ++j) {
@@ -41,18 +41,18 @@ TEST_CASE("a face of the cube is a spherical quad", "[surfaces]") {
     INFO(worst.text());
     CHECK(worst.failures() == 0);
   }
-  CHECK_FALSE(build_family(quad(face)).closed);
+  CHECK_FALSE(build_family(quad_text(face)).closed);
 }
 
 TEST_CASE("arcs pass through their points and stay in their planes", "[surfaces]") {
   // Three great circles, and above the plane x - z = 1 / sqrt(6), which bulges upward.
   const std::string corners = "[[2, -1, 0], [2, 1, 0], [2, 1, 1], [2, -1, 1]]";
   const double offset = 1 / std::sqrt(6.0), reach = std::sqrt(11.0 / 24.0);
-  const std::string by_plane = quad(
+  const std::string by_plane = quad_text(
       corners, fmt::format(R"("arcs": [null, null, {{"plane": [3, 0, -3, {:.17g}]}}, null])", 3 * offset));
   const std::string by_point =
-      quad(corners, fmt::format(R"("arcs": [null, null, {{"through": [{:.17g}, 0, {:.17g}]}}, null])",
-                                reach + offset / 2, reach - offset / 2));
+      quad_text(corners, fmt::format(R"("arcs": [null, null, {{"through": [{:.17g}, 0, {:.17g}]}}, null])",
+                                     reach + offset / 2, reach - offset / 2));
   WorstCase worst;
   for (const std::string& text : {by_plane, by_point}) {
     const Net net = net_of(text);
@@ -70,20 +70,20 @@ TEST_CASE("arcs pass through their points and stay in their planes", "[surfaces]
 }
 
 TEST_CASE("a quad that has no convex image is refused with its angle", "[surfaces]") {
-  CHECK(complaint(quad("[[1, -1, -1], [1, -1, 1], [1, 1, 1], [1, 1, -1]]")) ==
+  CHECK(complaint(quad_text("[[1, -1, -1], [1, -1, 1], [1, 1, 1], [1, 1, -1]]")) ==
         "corners[0] has an interior angle of 240 degrees; with more than 180 no image in a plane is convex "
         "(corners are listed counter-clockwise, seen from outside)");
   // Two triangles of a tetrahedron.
-  CHECK(complaint(quad("[[1, 1, 1], [-1, 1, -1], [1, -1, -1], [-1, -1, 1]]"))
+  CHECK(complaint(quad_text("[[1, 1, 1], [-1, 1, -1], [1, -1, -1], [-1, -1, 1]]"))
             .find("has an interior angle of 240 degrees") != std::string::npos);
   CHECK(complaint(R"({"type": "sphere_tiling", "topology": "tetrahedron_pairs"})") ==
         "this division has a quadrilateral without a patch: corners[1] has an interior angle of 240 degrees; "
         "with more than 180 no image in a plane is convex (Cobb 1988, section 7)");
-  CHECK(complaint(quad("[[0, 0, -1], [0, 1, 0], [0, 0, 1], [1, 0, 0]]")) ==
+  CHECK(complaint(quad_text("[[0, 0, -1], [0, 1, 0], [0, 0, 1], [1, 0, 0]]")) ==
         "corners[1] has an interior angle of 180 degrees, where the patch would be singular; it must be less "
         "than 180");
   CHECK(
-      complaint(quad(face, R"("projection_center": [0, 0, -1])")) ==
+      complaint(quad_text(face, R"("projection_center": [0, 0, -1])")) ==
       "arcs[0], from corners[0] to corners[1], bends inward by 30 degrees in the plane, so that the image is "
       "not convex (about this projection_center)");
   // Between two parallels and two meridians: one of the parallels bends inward, about any centre.
@@ -100,7 +100,7 @@ TEST_CASE("a quad that has no convex image is refused with its angle", "[surface
         top);
     for (const char* centre :
          {"", R"(, "projection_center": [1, 0, 0])", R"(, "projection_center": [1, 0, 1])"}) {
-      const std::string said = complaint(quad(rectangle, arcs + centre));
+      const std::string said = complaint(quad_text(rectangle, arcs + centre));
       INFO(said);
       CHECK(said.find(" bends inward by ") != std::string::npos);
     }
@@ -110,37 +110,38 @@ TEST_CASE("a quad that has no convex image is refused with its angle", "[surface
 TEST_CASE("each mistake in a quad has its message", "[surfaces]") {
   CHECK(complaint(R"({"type": "spherical_quad"})") ==
         "the object: \"corners\" is missing; it must be an array of four directions, [x, y, z] each");
-  CHECK(complaint(quad("[[1, 0, 0]]")) == "\"corners\" must be an array of four directions, [x, y, z] each");
-  CHECK(complaint(quad("[[1, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]")) ==
+  CHECK(complaint(quad_text("[[1, 0, 0]]")) ==
+        "\"corners\" must be an array of four directions, [x, y, z] each");
+  CHECK(complaint(quad_text("[[1, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]")) ==
         "corners[0] must be a direction, an array of three numbers");
-  CHECK(complaint(quad("[[0, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]")) ==
+  CHECK(complaint(quad_text("[[0, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]")) ==
         "corners[0] is a direction and must not be zero");
-  CHECK(complaint(quad("[[1, 0, 0], [2, 0, 0], [0, 0, 1], [1, 1, 1]]")) ==
+  CHECK(complaint(quad_text("[[1, 0, 0], [2, 0, 0], [0, 0, 1], [1, 1, 1]]")) ==
         "corners[0] and corners[1] are the same point");
   CHECK(
-      complaint(quad("[[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, -1, 1]]")) ==
+      complaint(quad_text("[[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, -1, 1]]")) ==
       "corners[0] and corners[1] are opposite, so that many great circles pass through both: give arcs[0] a "
       "point \"through\" which it passes");
-  CHECK(complaint(quad(face, R"("arcs": [null])")) == "\"arcs\" must be an array of four arcs");
-  CHECK(complaint(quad(face, R"("arcs": [null, 3, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null])")) == "\"arcs\" must be an array of four arcs");
+  CHECK(complaint(quad_text(face, R"("arcs": [null, 3, null, null])")) ==
         "arcs[1] must be null for a great circle, { \"through\": [x, y, z] } or { \"plane\": [a, b, c, d] }");
-  CHECK(complaint(quad(face, R"("arcs": [null, {}, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {}, null, null])")) ==
         "arcs[1]: give either \"through\" or \"plane\"");
-  CHECK(complaint(quad(face, R"("arcs": [null, {"trough": [1, 0, 0]}, null, null])")).find("through") !=
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {"trough": [1, 0, 0]}, null, null])")).find("through") !=
         std::string::npos);
-  CHECK(complaint(quad(face, R"("arcs": [null, {"through": [1, 1, 1]}, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {"through": [1, 1, 1]}, null, null])")) ==
         "the point through which arcs[1] passes must not be one of its corners");
-  CHECK(complaint(quad(face, R"("arcs": [null, {"plane": [1, 1, 1]}, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {"plane": [1, 1, 1]}, null, null])")) ==
         "\"plane\" must be [a, b, c, d] for the plane a x + b y + c z = d");
-  CHECK(complaint(quad(face, R"("arcs": [null, {"plane": [0, 0, 0, 1]}, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {"plane": [0, 0, 0, 1]}, null, null])")) ==
         "the plane's normal must not be zero");
-  CHECK(complaint(quad(face, R"("arcs": [null, {"plane": [1, 0, 0, 0.5]}, null, null])")) ==
+  CHECK(complaint(quad_text(face, R"("arcs": [null, {"plane": [1, 0, 0, 0.5]}, null, null])")) ==
         "the plane of arcs[1] must contain both corners; it misses one by 0.0774");
-  CHECK(complaint(quad(face, R"("projection_center": [0, 0, 0])")) ==
+  CHECK(complaint(quad_text(face, R"("projection_center": [0, 0, 0])")) ==
         "\"projection_center\" is a direction and must not be zero");
-  CHECK(complaint(quad(face, R"("projection_center": [-1, -1, -1])")) ==
+  CHECK(complaint(quad_text(face, R"("projection_center": [-1, -1, -1])")) ==
         "corners[2] lies where one projects from, opposite the centre");
-  CHECK(complaint(quad(face, R"("corner_weights": "unity")")).find("did you mean \"unit\"?") !=
+  CHECK(complaint(quad_text(face, R"("corner_weights": "unity")")).find("did you mean \"unit\"?") !=
         std::string::npos);
 }
 

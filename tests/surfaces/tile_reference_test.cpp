@@ -17,13 +17,13 @@ namespace {
 using Big = boost::multiprecision::cpp_bin_float_50;
 using nlohmann::json;
 
-struct Case {
+struct TileCase {
   const char* name;    // in tile_nets.json
   const char* object;  // a surface with that patch
   double scale;        // the reference's net divided by ours
 };
 
-const Case cases[] = {
+const TileCase tile_cases[] = {
     {"icosahedron_pair", R"({"type": "sphere_tiling", "topology": "icosahedron_pairs"})", 1.0},
     {"icosahedron_pair_unit",
      R"({"type": "sphere_tiling", "topology": "icosahedron_pairs", "corner_weights": "unit"})", 1.0},
@@ -41,7 +41,7 @@ const Case cases[] = {
     {"stereographic_2", R"({"type": "stereographic_patch", "x": [-2, 2], "y": [-2, 2]})", 4.0},
     {"stereographic_4", R"({"type": "stereographic_patch", "x": [-2, 2], "y": [-2, 2], "plane_z": 0})", 4.0}};
 
-json reference(const std::string& name) {
+json tile_entry(const std::string& name) {
   static const json all = reference_data("tile_nets.json");
   return reference_entry(all, name);
 }
@@ -77,8 +77,8 @@ std::optional<TensorNet> same_patch(const Surface& surface, const json& expected
 
 TEST_CASE("tiles have the reference's nets, rounded once", "[surfaces]") {
   WorstCase worst, points, normals;
-  for (const Case& c : cases) {
-    const json expected = reference(c.name);
+  for (const TileCase& c : tile_cases) {
+    const json expected = tile_entry(c.name);
     const auto net = same_patch(build_family(c.object), expected);
     INFO(c.name);
     REQUIRE(net.has_value());

@@ -16,7 +16,7 @@
 namespace rondure {
 namespace {
 
-struct Case {
+struct TilingCase {
   const char* parameters;
   int patches;
   int pairs;                    // edges that two patches share from end to end
@@ -28,7 +28,7 @@ struct Case {
 
 // Neighbours that are mirror images of each other share the weights along the common edge, the others only
 // its points.
-const Case cases[] = {
+const TilingCase tiling_cases[] = {
     {R"("topology": "hemispheres")", 2, 4, 4, 4, 0, 0, 8},
     {R"("topology": "cube")", 6, 12, 12, 12, 0, 0, 0},
     // Four edges are quadratic on one side and quartic on the other.
@@ -43,7 +43,7 @@ const Case cases[] = {
     {R"("topology": "rhombicuboctahedron")", 54, 108, 108, 36, 0, 0, 0},
     {R"("topology": "rhombicuboctahedron", "reading": 42)", 42, 48, 48, 48, 24, 48, 0}};
 
-Surface tiling(const Case& c) {
+Surface tiling(const TilingCase& c) {
   return build_family(fmt::format(R"({{"type": "sphere_tiling", {}}})", c.parameters));
 }
 
@@ -99,7 +99,7 @@ void compare_pair(const Edge& a, const Edge& b, double& pointwise, double& apart
 }  // namespace
 
 TEST_CASE("every edge is shared by two patches", "[surfaces]") {
-  for (const Case& c : cases) {
+  for (const TilingCase& c : tiling_cases) {
     INFO(c.parameters);
     const Surface surface = tiling(c);
     CHECK(static_cast<int>(surface.patches.size()) == c.patches);
@@ -160,7 +160,7 @@ TEST_CASE("every edge is shared by two patches", "[surfaces]") {
 }
 
 TEST_CASE("corners are singular where the paper says and nowhere else", "[surfaces]") {
-  for (const Case& c : cases) {
+  for (const TilingCase& c : tiling_cases) {
     INFO(c.parameters);
     const Surface surface = tiling(c);
     int parallel = 0, collapsed = 0, corners = 0;
@@ -220,7 +220,7 @@ TEST_CASE("octants collapse an edge each", "[surfaces]") {
 
 TEST_CASE("every direction is covered once", "[surfaces]") {
   NetMaker make(23);
-  for (const Case& c : cases) {
+  for (const TilingCase& c : tiling_cases) {
     INFO(c.parameters);
     const Surface surface = tiling(c);
     if (surface.patches.size() < 3) continue;  // hemispheres have no sides of their own
