@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/regular_joins.h"
 #include "renderer/complex/shipped.h"
 #include "renderer/complex/validate.h"
@@ -35,7 +35,7 @@ std::function<CoefficientTargets(int)> shaped(const SurfaceComplex& complex,
 
 dvec3 on_sphere(const dvec3& p) { return glm::normalize(p); }
 
-ComplexChoice octahedral() {
+ComplexChoice octahedron_choice() {
   ComplexChoice out{octahedron_complex(), {}, 0, {}};
   std::vector<std::vector<dvec3>> corners;
   for (int k = 0; k < 8; ++k) {
@@ -173,7 +173,7 @@ ComplexChoice read_complex(Params& params) {
     out = from_object(params);
   } else {
     const std::string name = params.choice("complex", {"octahedron", "cube", "torus"}, "cube");
-    out = name == "octahedron" ? octahedral() : name == "cube" ? cube() : torus(4, 3);
+    out = name == "octahedron" ? octahedron_choice() : name == "cube" ? cube() : torus(4, 3);
   }
   if (out.vertices.empty()) {
     const std::vector<VertexFan> fans = vertex_fans(out.complex);

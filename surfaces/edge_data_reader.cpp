@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/regular_joins.h"
 
 namespace rondure {

@@ -10,7 +10,7 @@ namespace {
 // Halves are told apart to this part of [0, 1]; what noise leaves undecided then is one root.
 constexpr int most_halvings = 40;
 
-struct Interval {
+struct RootInterval {
   double c[max_degree + 1];
   double low, width;
   int depth;
@@ -54,9 +54,9 @@ bool noise_between(const double* c, int n, double noise) {
 }  // namespace
 
 void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& out) noexcept {
-  Interval stack[most_halvings + 2];
+  RootInterval stack[most_halvings + 2];
   int top = 0;
-  Interval& whole = stack[top++];
+  RootInterval& whole = stack[top++];
   for (int k = 0; k <= n; ++k) whole.c[k] = scaled[k] / binomial(n, k);
   whole.low = 0.0, whole.width = 1.0, whole.depth = 0;
   // A root between two pieces is found in both, and a doubtful one in several: one is enough.
@@ -68,7 +68,7 @@ void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& ou
     out.add({t, simple, width});
   };
   while (top > 0) {
-    const Interval piece = stack[--top];
+    const RootInterval piece = stack[--top];
     const Signs s = signs_of(piece.c, n, noise);
     if (s.above == n + 1 || s.below == n + 1) continue;
     const bool alone = s.above + s.below == n && (s.above == 0 || s.below == 0);
@@ -90,7 +90,7 @@ void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& ou
       propose(piece.low + 0.5 * piece.width, false, 0.5 * piece.width);
       continue;
     }
-    Interval &high = stack[top], &low = stack[top + 1];
+    RootInterval &high = stack[top], &low = stack[top + 1];
     curve_halve(piece.c, n, 1, low.c, high.c);
     low.width = high.width = 0.5 * piece.width;
     low.low = piece.low, high.low = piece.low + low.width;

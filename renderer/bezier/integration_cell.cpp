@@ -24,15 +24,16 @@ std::vector<lvec4> evaluate(const LongNet& net, const std::vector<long double>& 
   std::vector<lvec4> rows(static_cast<std::size_t>((net.m + 1) * nv), lvec4(0.0L));
   for (int i = 0; i <= net.m; ++i) {
     for (int j = 0; j < nv; ++j) {
-      lvec4& p = rows[index(i, nv, j)];
-      for (int k = 0; k <= net.n; ++k) p += in_v[index(j, net.n + 1, k)] * net.points[index(i, net.n + 1, k)];
+      lvec4& p = rows[grid_index(i, nv, j)];
+      for (int k = 0; k <= net.n; ++k)
+        p += in_v[grid_index(j, net.n + 1, k)] * net.points[grid_index(i, net.n + 1, k)];
     }
   }
   std::vector<lvec4> out(static_cast<std::size_t>(nu * nv), lvec4(0.0L));
   for (int i = 0; i < nu; ++i) {
     for (int k = 0; k <= net.m; ++k) {
-      const long double b = in_u[index(i, net.m + 1, k)];
-      for (int j = 0; j < nv; ++j) out[index(i, nv, j)] += b * rows[index(k, nv, j)];
+      const long double b = in_u[grid_index(i, net.m + 1, k)];
+      for (int j = 0; j < nv; ++j) out[grid_index(i, nv, j)] += b * rows[grid_index(k, nv, j)];
     }
   }
   return out;
@@ -232,7 +233,7 @@ void integrate(IntegrationCell& cell, const GaussRule& in_u, const GaussRule& in
     const long double u = in_u.node[static_cast<std::size_t>(i)];
     for (int j = 0; j < nv; ++j) {
       const long double v = in_v.node[static_cast<std::size_t>(j)];
-      const std::size_t at = index(i, nv, j);
+      const std::size_t at = grid_index(i, nv, j);
       const lvec4& f = nodes.point[at];
       lvec3 n = normal(f, nodes.du[at], nodes.dv[at]);
       const long double det = determinant(f, nodes.du[at], nodes.dv[at]);
@@ -281,7 +282,8 @@ double edge_normal_bound(const IntegrationCell& cell, int edge, const GaussRule&
     const int end = edge % 2 == 0 ? 0 : (along_v ? net.m : net.n);
     LongNet row{0, along_v ? net.n : net.m, {}, net.noise};
     for (int k = 0; k <= row.n; ++k)
-      row.points.push_back(net.points[along_v ? index(end, net.n + 1, k) : index(k, net.n + 1, end)]);
+      row.points.push_back(
+          net.points[along_v ? grid_index(end, net.n + 1, k) : grid_index(k, net.n + 1, end)]);
     return evaluate(row, first, 1, row.n == rule.degree ? rule.value : rule.lower, count);
   };
   const auto normals = [&](int count) {
@@ -299,8 +301,8 @@ double edge_normal_bound(const IntegrationCell& cell, int edge, const GaussRule&
     for (int k = 0; k < rule.count; ++k) {
       double sum = 0.0;
       for (int i = 0; i < rule.count; ++i) {
-        sum +=
-            rule.project[index(k, rule.count, i)] * static_cast<double>(all[static_cast<std::size_t>(i)][c]);
+        sum += rule.project[grid_index(k, rule.count, i)] *
+               static_cast<double>(all[static_cast<std::size_t>(i)][c]);
       }
       total += std::abs(sum);
     }

@@ -12,13 +12,14 @@ Series series(const Grid& values, int m, int n, const GaussRule& in_u, const Gau
   for (int k = 0; k <= m; ++k) {
     std::fill(row.begin(), row.end(), 0.0);
     for (int i = 0; i < nu; ++i) {
-      const double p = in_u.project[index(k, nu, i)];
-      for (int j = 0; j < nv; ++j) row[static_cast<std::size_t>(j)] += p * values[index(i, nv, j)];
+      const double p = in_u.project[grid_index(k, nu, i)];
+      for (int j = 0; j < nv; ++j) row[static_cast<std::size_t>(j)] += p * values[grid_index(i, nv, j)];
     }
     for (int l = 0; l <= n; ++l) {
       double sum = 0.0;
-      for (int j = 0; j < nv; ++j) sum += in_v.project[index(l, nv, j)] * row[static_cast<std::size_t>(j)];
-      out.coefficients[index(k, n + 1, l)] = sum;
+      for (int j = 0; j < nv; ++j)
+        sum += in_v.project[grid_index(l, nv, j)] * row[static_cast<std::size_t>(j)];
+      out.coefficients[grid_index(k, n + 1, l)] = sum;
     }
   }
   for (const double v : values) out.error = std::max(out.error, std::abs(v));
@@ -33,7 +34,7 @@ Profile profile(const Series& s) {
   out.in_v.assign(static_cast<std::size_t>(s.n) + 1, 0.0);
   for (int k = 0; k <= s.m; ++k) {
     for (int l = 0; l <= s.n; ++l) {
-      const double c = std::abs(s.coefficients[index(k, s.n + 1, l)]) +
+      const double c = std::abs(s.coefficients[grid_index(k, s.n + 1, l)]) +
                        s.error * static_cast<double>((2 * k + 1) * (2 * l + 1));
       out.in_u[static_cast<std::size_t>(k)] += c;
       out.in_v[static_cast<std::size_t>(l)] += c;

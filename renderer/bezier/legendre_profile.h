@@ -13,7 +13,7 @@ namespace rondure {
 // Values at the nodes (rounded to double) or coefficients, (i, j) at [i * columns + j].
 using Grid = std::vector<double>;
 
-inline std::size_t index(int row, int columns, int column) {
+inline std::size_t grid_index(int row, int columns, int column) {
   return static_cast<std::size_t>(row * columns + column);
 }
 

@@ -15,7 +15,7 @@
 namespace rondure {
 namespace {
 
-constexpr double relative_error = 1e-13;
+constexpr double error_goal = 1e-13;
 constexpr std::size_t most_cells = 100000, most_cells_of_a_patch = 4000;
 
 dmat3 inertia_of(const dmat3& second) { return dmat3(second[0][0] + second[1][1] + second[2][2]) - second; }
@@ -100,7 +100,7 @@ MassProperties of_patches(const Surface& surface) {
   const std::size_t count = surface.patches.size();
   const Frame frame = frame_of(surface);
   IntegralGoal each;
-  each.error = relative_error / static_cast<double>(std::max<std::size_t>(count, 1));
+  each.error = error_goal / static_cast<double>(std::max<std::size_t>(count, 1));
   each.extent = frame.extent > 0.0 ? frame.extent : 1.0;
   each.most_cells = static_cast<int>(
       std::clamp<std::size_t>(most_cells / std::max<std::size_t>(count, 1), 1, most_cells_of_a_patch));

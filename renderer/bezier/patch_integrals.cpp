@@ -70,8 +70,9 @@ LongNet derivative(const LongNet& net, bool along_u) {
   LongNet out{along_u ? net.m - 1 : net.m, along_u ? net.n : net.n - 1, {}, 0.0};
   for (int i = 0; i <= out.m; ++i) {
     for (int j = 0; j <= out.n; ++j) {
-      const lvec4& low = net.points[index(i, net.n + 1, j)];
-      const lvec4& high = net.points[along_u ? index(i + 1, net.n + 1, j) : index(i, net.n + 1, j + 1)];
+      const lvec4& low = net.points[grid_index(i, net.n + 1, j)];
+      const lvec4& high =
+          net.points[along_u ? grid_index(i + 1, net.n + 1, j) : grid_index(i, net.n + 1, j + 1)];
       out.points.push_back(static_cast<long double>(degree) * (high - low));
     }
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/rational.h"
 #include "renderer/bezier/transform.h"
 #include "renderer/complex/weld.h"

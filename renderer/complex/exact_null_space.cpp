@@ -2,7 +2,7 @@
 #include <map>
 #include <utility>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/null_space.h"
 
 namespace rondure {

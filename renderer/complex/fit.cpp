@@ -1,10 +1,9 @@
 #include "renderer/complex/fit.h"
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/least_squares.h"
 
 namespace rondure {
-namespace {}  // namespace
 
 CoefficientTargets flat_targets(const SurfaceComplex& complex, int n,
                                 const std::vector<std::vector<dvec3>>& corners) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/tensor.h"
 #include "renderer/bezier/triangle.h"
 #include "renderer/bezier/triangle_keys.h"

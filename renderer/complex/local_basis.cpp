@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/least_squares.h"
 #include "renderer/complex/modular.h"
 

@@ -1,7 +1,7 @@
 #include "renderer/complex/octahedron_bases.h"
 
-#include "renderer/api/index.h"
 #include "renderer/api/patch.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/shipped.h"
 
 namespace rondure {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "renderer/api/index.h"
 #include "renderer/api/patch.h"
+#include "renderer/bezier/index.h"
 
 namespace rondure {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/local_basis.h"
 
 namespace rondure {

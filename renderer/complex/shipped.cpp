@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/complex/regular_joins.h"
 
 namespace rondure {

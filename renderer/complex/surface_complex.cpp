@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 
 namespace rondure {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 
 namespace rondure {
 namespace {

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 
 namespace rondure {
 namespace {
-
-Integer choose(int n, int k) {
-  Integer c = 1;
-  for (int i = 1; i <= k; ++i) c = c * (n - k + i) / i;
-  return c;
-}
 
 // A polynomial by what stands at u^i (1 - u)^(m - i) v^j (1 - v)^(n - j), or u^i v^j w^(n - i - j): Bernstein
 // coefficients times binomials, which multiply without division.
@@ -152,7 +146,9 @@ std::size_t IntegerNet::place(int i, int j) const {
   return index(triangle ? triangle_index(n, i, j) : i * (n + 1) + j);
 }
 
-Integer IntegerNet::binomials(int i, int j) const { return choose(m, i) * choose(triangle ? n - i : n, j); }
+Integer IntegerNet::binomials(int i, int j) const {
+  return exact_binomial(m, i) * exact_binomial(triangle ? n - i : n, j);
+}
 
 IntegerNet integer_net(const Net& net) {
   IntegerNet out;

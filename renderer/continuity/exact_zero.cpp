@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 
 namespace rondure {
 namespace {

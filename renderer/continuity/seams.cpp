@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "renderer/api/index.h"
 #include "renderer/bezier/box.h"
+#include "renderer/bezier/index.h"
 #include "renderer/continuity/disjoint_sets.h"
 #include "renderer/continuity/side_foot.h"
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/triangle_keys.h"
 #include "renderer/inverse_spherical/spherical_triangle.h"
 

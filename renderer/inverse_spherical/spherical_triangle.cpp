@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "renderer/api/index.h"
+#include "renderer/bezier/index.h"
 #include "renderer/bezier/triangle.h"
 
 namespace rondure {
@@ -28,10 +28,10 @@ double paths_from(const std::vector<std::vector<double>>& lengths, const dvec3& 
   if (n == 0) return 1.0;
   const std::size_t step = lengths.size() - 1 - static_cast<std::size_t>(n);
   const double here = lengths[step][index(triangle_index(n, i, j))];
-  const int corner_index[3] = {i, j, n - i - j};
+  const int exponents[3] = {i, j, n - i - j};
   double sum = 0.0;
   for (int m = 0; m < 3; ++m) {
-    if (corner_index[m] == 0) continue;
+    if (exponents[m] == 0) continue;
     const int ni = i - (m == 0 ? 1 : 0), nj = j - (m == 1 ? 1 : 0);
     const double alpha = tau[m] * here / lengths[step + 1][index(triangle_index(n - 1, ni, nj))];
     sum += alpha * paths_from(lengths, tau, n - 1, ni, nj);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/bezier/epsilon.h"
 #include "renderer/layers/certificate.h"
 #include "renderer/layers/layers.h"
 
@@ -11,7 +12,6 @@ namespace rondure {
 namespace {
 
 constexpr const char* type_name = "certificate";
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // From 1, so that a pixel that nobody looked at is no proof.
 double code_of(Means means) { return 1.0 + static_cast<int>(means); }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/layers/layers.h"
 
 namespace rondure {
@@ -16,7 +17,7 @@ constexpr double no_value = -1.0;
 // that comes of such a normal is right.
 double degrees_between(const NormalEstimate& a, const NormalEstimate& b) {
   if (!a || !b) return 180.0;
-  const double angle = std::atan2(glm::length(glm::cross(*a, *b)), glm::dot(*a, *b));
+  const double angle = angle_between(*a, *b);
   return angle * (180.0 / std::numbers::pi);
 }
 

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/layers/layers.h"
 #include "renderer/normals/direction.h"
 #include "renderer/sampling/warps.h"
@@ -98,8 +99,7 @@ LayerFunction lines_layer(const Lines& lines, Draw draw) {
 LayerFunction isophotes(Params& params) {
   return lines_layer(read_lines(params, 16),
                      [](const Lines& lines, const Hit&, const dvec3&, const dvec3& n, double* values) {
-                       const double angle = std::atan2(glm::length(glm::cross(n, lines.direction)),
-                                                       glm::dot(n, lines.direction));
+                       const double angle = angle_between(n, lines.direction);
                        lines.draw(angle / pi * lines.count, values);
                      });
 }

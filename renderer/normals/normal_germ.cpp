@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/bezier/curvature_polynomial.h"
 #include "renderer/bezier/edge_factor.h"
 #include "renderer/normals/direction.h"
@@ -129,9 +130,7 @@ NormalGerm germ_at_corner(std::vector<Term> terms) {
   }
   for (const dvec3& way : limits) {
     sum += way;
-    for (const dvec3& other : limits)
-      germ.spread =
-          std::max(germ.spread, std::atan2(glm::length(glm::cross(way, other)), glm::dot(way, other)));
+    for (const dvec3& other : limits) germ.spread = std::max(germ.spread, angle_between(way, other));
   }
   germ.has_limit = germ.spread < 1e-7;
   return germ;
@@ -157,8 +156,7 @@ NormalGerm germ_by_ways(const Net& net, const NormalPolynomial& p, dvec2 at) {
       if (const auto way = direction_of(value)) ways.push_back(*way);
     }
     for (const dvec3& a : ways)
-      for (const dvec3& b : ways)
-        spread[step] = std::max(spread[step], std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+      for (const dvec3& b : ways) spread[step] = std::max(spread[step], angle_between(a, b));
   }
   if (!(size[1] > 0.0)) return germ;
   germ.order = static_cast<int>(std::lround(std::log2(size[0] / size[1])));

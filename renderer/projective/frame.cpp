@@ -4,7 +4,7 @@
 
 namespace rondure {
 
-Frame::Frame(const lvec3& direction) : centre(direction / glm::length(direction)) {
+StereographicFrame::StereographicFrame(const lvec3& direction) : centre(direction / glm::length(direction)) {
   // The axis least in line with the centre, so that the cross product loses nothing.
   int axis = 0;
   for (int k = 1; k < 3; ++k) {

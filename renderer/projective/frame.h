@@ -7,11 +7,11 @@ namespace rondure {
 
 // Right-handed, orthonormal. The sphere is projected from -centre to the plane that touches it at the centre,
 // with axes e1 and e2: seen from outside the plane has its usual orientation.
-struct Frame {
+struct StereographicFrame {
   lvec3 e1, e2, centre;
 
   // `direction` need not have length 1, but must not be zero.
-  explicit Frame(const lvec3& direction);
+  explicit StereographicFrame(const lvec3& direction);
 
   // The homogeneous image (X, Y, W) of the point (x, w) of the sphere. W / w is 1 + cos of the angle from the
   // centre: 1 - z in Cobb's position, where the centre is the south pole. Being linear, this takes the

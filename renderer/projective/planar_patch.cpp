@@ -72,7 +72,7 @@ TensorNet sphere_patch(const PlanarBiquadratic& planar, long double scale) {
   return composed(planar, scale, {lvec3(1, 0, 0), lvec3(0, 1, 0), lvec3(0, 0, 1)});
 }
 
-TensorNet sphere_patch(const PlanarBiquadratic& planar, const Frame& frame) {
+TensorNet sphere_patch(const PlanarBiquadratic& planar, const StereographicFrame& frame) {
   return composed(planar, 1, {frame.e1, frame.e2, -frame.centre});
 }
 

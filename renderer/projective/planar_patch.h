@@ -25,6 +25,6 @@ TensorNet sphere_patch(const PlanarBiquadratic& planar, long double scale);
 
 // The same for the projection that a frame describes. Outward where the planar patch has positive
 // orientation.
-TensorNet sphere_patch(const PlanarBiquadratic& planar, const Frame& frame);
+TensorNet sphere_patch(const PlanarBiquadratic& planar, const StereographicFrame& frame);
 
 }  // namespace rondure

@@ -22,7 +22,7 @@ void put(PlanarBiquadratic& planar, const int (&place)[2], const lvec3& p) {
 }  // namespace
 
 QuadPatch quad_patch(const SphericalQuad& quad, const QuadPatchOptions& options) {
-  const Frame frame(options.centre);
+  const StereographicFrame frame(options.centre);
   const bool unit = options.corner_weights == CornerWeights::unit;
   PlanarBiquadratic planar{};
   QuadPatch out{};

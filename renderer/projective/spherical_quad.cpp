@@ -68,7 +68,7 @@ SphericalQuad geodesic_quad(const std::array<lvec3, 4>& c) {
 }
 
 QuadShape shape_of(const SphericalQuad& quad, const lvec3& centre) {
-  const Frame frame(centre);
+  const StereographicFrame frame(centre);
   QuadShape shape{};
   for (std::size_t k = 0; k < 4; ++k) {
     const SphereArc& arc = quad.arc[k];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/bezier/angle.h"
 #include "renderer/film/image.h"
 #include "renderer/film/preview.h"
 #include "renderer/render/interrupt.h"
@@ -76,8 +77,7 @@ Compared compare(const Subject& subject, std::size_t patches, const Film& truth,
       missed += p.surface != q.surface;
       if (p.surface == 0 && q.surface == 0) {
         point = std::max(point, glm::distance(p.point, q.point));
-        normal = std::max(
-            normal, std::atan2(glm::length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal)));
+        normal = std::max(normal, angle_between(a.normal, b.normal));
       }
       const dvec3 shown = mapped_color("viridis", place_of(largest));
       for (int c = 0; c < 3; ++c) map.push_back(srgb_byte(shown[c]));

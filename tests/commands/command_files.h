@@ -41,7 +41,7 @@ inline std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-// A command run in a folder.
+// Rondure, run in a folder.
 inline ProcessResult run_in(const std::string& folder, const std::vector<std::string>& arguments) {
   ProcessOptions options;
   options.folder = folder;

@@ -149,7 +149,7 @@ TEST_CASE("options of the scene may stand anywhere and more than once", "[comman
   const std::string folder = fresh_folder("scene_options");
   write_text_file(folder + "/s.json", ball);
   const auto says = [&](std::vector<std::string> arguments) {
-    const ProcessResult result = run_in(folder, std::move(arguments));
+    const ProcessResult result = run_in(folder, arguments);
     return result.out + result.err;
   };
   const std::string valid = "s.json: valid, 1 object, 8 patches, 1 light, 1 material\n";

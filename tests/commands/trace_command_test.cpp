@@ -13,7 +13,7 @@ namespace rondure {
 namespace {
 
 const std::string header = "ray,hit,t,x,y,z,nx,ny,nz,surface,patch,u,v";
-constexpr double epsilon = 0x1p-53;
+constexpr double roundoff = 0x1p-53;
 
 ProcessResult trace(const std::string& folder, std::vector<std::string> arguments,
                     const std::string& input = "") {
@@ -66,10 +66,10 @@ TEST_CASE("trace writes one line a ray, in the order of the rays", "[command]") 
     const long double t = (b - std::sqrt(discriminant)) / a;
     const double steep = static_cast<double>(std::sqrt(a / discriminant));
     const double error = static_cast<double>(std::fabs(static_cast<long double>(number_of(fields[2])) - t));
-    worst.add(error, 16.0 * epsilon * steep, [&] { return fmt::format("t of ray {}", k); });
+    worst.add(error, 16.0 * roundoff * steep, [&] { return fmt::format("t of ray {}", k); });
     const double px = number_of(fields[3]), py = number_of(fields[4]), pz = number_of(fields[5]);
     const double nx = number_of(fields[6]), ny = number_of(fields[7]), nz = number_of(fields[8]);
-    worst.add(std::fabs(std::sqrt(px * px + py * py + pz * pz) - 1.0), 16.0 * epsilon,
+    worst.add(std::fabs(std::sqrt(px * px + py * py + pz * pz) - 1.0), 16.0 * roundoff,
               [&] { return fmt::format("radius of ray {}", k); });
     worst.add(std::hypot(nx - px, ny - py, nz - pz), 1e-12,
               [&] { return fmt::format("normal of ray {}", k); });
@@ -109,7 +109,7 @@ TEST_CASE("trace --all writes every hit in order of t", "[command]") {
     const std::vector<std::string> fields = fields_of(lines[k + 1]);
     CHECK(fields[0] == "0");
     CHECK(std::fabs(number_of(fields[2]) - expected[k]) <=
-          64.0 * epsilon);  // t is below 8, z and the root err by few ulps
+          64.0 * roundoff);  // t is below 8, z and the root err by few ulps
     CHECK(fields[9] == surfaces[k]);
   }
   CHECK(lines[7] == "1,0,,,,,,,,,,,");
@@ -140,7 +140,8 @@ TEST_CASE("trace points at what is wrong with a table", "[command]") {
   };
   const Case cases[] = {
       {"0,0,3,0,0",
-       "2:10: expected 6 columns at least (ox,oy,oz,dx,dy,dz,tmin,tmax), found 5\n    0,0,3,0,0\n             ^"},
+       "2:10: expected 6 columns at least (ox,oy,oz,dx,dy,dz,tmin,tmax), found 5\n    0,0,3,0,0\n            "
+       " ^"},
       {"0,0,3,0,0,x", "2:11: \"dz\" must be a number, found \"x\"\n    0,0,3,0,0,x\n              ^"},
       {"0,0,3,0,0,+-1", "2:11: \"dz\" must be a number, found \"+-1\"\n    0,0,3,0,0,+-1\n              ^"},
       {"0,0,3,0,0,0", "2:7: the direction is zero\n    0,0,3,0,0,0\n          ^"},

@@ -11,7 +11,7 @@
 namespace rondure {
 
 // center + linear . (unit sphere).
-struct Body {
+struct GlassBody {
   const char* name;
   std::string object;  // its type and what that needs
   const char* solver;
@@ -21,7 +21,7 @@ struct Body {
 };
 
 // The body alone in a constant light.
-inline std::string scene_of(const Body& body, int max_depth) {
+inline std::string scene_of(const GlassBody& body, int max_depth) {
   std::string rows;
   for (int i = 0; i < 3; ++i)
     rows += fmt::format("[{:.17g}, {:.17g}, {:.17g}, {:.17g}], ", body.linear[0][i], body.linear[1][i],
@@ -33,7 +33,7 @@ inline std::string scene_of(const Body& body, int max_depth) {
       max_depth, body.ior, body.object, body.solver, rows);
 }
 
-inline std::vector<Body> glass_bodies() {
+inline std::vector<GlassBody> glass_bodies() {
   const auto tiling = [](const char* topology) {
     return fmt::format(R"("type": "sphere_tiling", "topology": "{}")", topology);
   };

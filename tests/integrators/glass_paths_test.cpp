@@ -60,7 +60,7 @@ std::string text_of(const Ray& ray) {
 
 class Walk {
  public:
-  Walk(const Body& body, const StagedScene& scene)
+  Walk(const GlassBody& body, const StagedScene& scene)
       : body_(body),
         scene_(scene),
         surface_(scene.tracer.surfaces()[0].surface),
@@ -123,7 +123,7 @@ class Walk {
   }
 
  private:
-  const Body& body_;
+  const GlassBody& body_;
   const StagedScene& scene_;
   const Surface& surface_;
   const EllipsoidReference exact_;
@@ -242,13 +242,21 @@ class Walk {
   }
 };
 
+TEST_CASE("All light is reflected where it grazes exactly", "[integrators]") {
+  for (const double eta : {1.5, 1.0 / 1.5, 2.4}) {
+    const Transmission through = transmission(0.0, eta);
+    CHECK(through.share == 0.0);
+    CHECK(std::fabs(fresnel_dielectric(0.0, eta) + through.share - 1.0) <= through.error);
+  }
+}
+
 TEST_CASE("Paths in tiled glass keep their side and their light", "[once][integrators]") {
   // In all; a body met by clipping gets a twentieth.
   const double wanted = wanted_paths(1.2e5);
-  const std::vector<Body> all = glass_bodies();
+  const std::vector<GlassBody> all = glass_bodies();
   Tally tally;
   std::uint64_t seed = first_seed();
-  for (const Body& body : all) {
+  for (const GlassBody& body : all) {
     const StagedScene scene(scene_of(body, max_depth));
     const Walk walk(body, scene);
     const double share = std::string(body.solver) == "clipping" ? 0.05 : 1.0;

@@ -20,11 +20,12 @@ inline Transmission transmission(double cosine, double eta) {
   // amplitudes by no more than their slopes times that, and some ten roundings of theirs.
   const double far_error = u * static_cast<double>((1 + 4 * (1 - c * c)) / (e * e)) + u;
   if (!(far2 > 0)) return {0.0, far2 > -far_error ? 8.0 * std::sqrt(far_error) * eta / cosine : u};
-  const Extended far = std::sqrt(far2), s = 2 * c / (c + e * far), p = 2 * c / (e * c + far);
+  // e far / c (s^2 + p^2) / 2 of the amplitudes s = 2 c / (c + e far) and p = 2 c / (e c + far); c may be 0.
+  const Extended far = std::sqrt(far2), s = 1 / (c + e * far), p = 1 / (e * c + far);
   const double f = static_cast<double>(far), moved = std::min(far_error / f, std::sqrt(far_error));
   const double slope_s = 2.0 * cosine * eta / ((cosine + eta * f) * (cosine + eta * f)),
                slope_p = 2.0 * cosine * eta / ((eta * cosine + f) * (eta * cosine + f));
-  return {static_cast<double>(e * far / c * (s * s + p * p) / 2),
+  return {static_cast<double>(2 * e * far * c * (s * s + p * p)),
           2.0 * (slope_s + slope_p) * moved + 20.0 * u};
 }
 

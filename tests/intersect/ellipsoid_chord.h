@@ -1,9 +1,8 @@
 // Where a line with double coordinates meets an ellipsoid, the image of the unit sphere under a matrix of
 // doubles, in quadruple precision; or in the 64 bits of long double, whose rounding is 2^-11 of double's,
-// many times faster: for lines without number, where what is asked for is known to double's rounding only.
+// many times faster: for very many lines, where what is asked for is known to double's rounding only.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -65,7 +64,7 @@ class EllipsoidIn {
       return out;
     }
 
-    // How deep in it the points o + t d are at most, t in [0, end], as 1 - |x| in the unit sphere's space.
+    // How deep in it the points q + t d are at most, t in [0, end], as 1 - |x| in the unit sphere's space.
     // Finite ends only, unless the ray leaves it.
     double depth(double end) const {
       if (middle_ <= 0) return depth_at(0.0);

@@ -29,7 +29,7 @@ bool random_quad(NetMaker& make, std::array<lvec3, 4>& corners) {
   for (double& a : angle) a = make.uniform(0.0, 6.283185307179586);
   std::sort(angle, angle + 4);
   const double height = make.uniform(-0.3, 0.95);
-  const Frame frame(direction(make.uniform(-1.0, 1.0), make.uniform(-1.0, 1.0), 0.3));
+  const StereographicFrame frame(direction(make.uniform(-1.0, 1.0), make.uniform(-1.0, 1.0), 0.3));
   for (int k = 0; k < 4; ++k) {
     const double flat = std::sqrt(1.0 - height * height);
     const lvec3 p(flat * std::cos(angle[k]), flat * std::sin(angle[k]), height);

@@ -59,7 +59,7 @@ inline bool angles_within(const SphericalQuad& quad, long double least) {
 
 // A convex quadrilateral of great circles about a random axis, corners 15 to 75 degrees away from it.
 inline SphericalQuad convex_geodesic(NetMaker& make) {
-  const Frame frame(direction(make));
+  const StereographicFrame frame(direction(make));
   while (true) {
     std::array<lvec3, 4> corner;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -100,7 +100,7 @@ TEST_CASE("plane images have the control points of planar arcs", "[projective]")
   WorstCase worst;
   for (int k = 0; k < 1000; ++k) {
     const lvec3 p = random_point(make), q = random_point(make), m = random_point(make);
-    const Frame frame(random_point(make));
+    const StereographicFrame frame(random_point(make));
     const lvec3 hp = frame.project(p, 1), hq = frame.project(q, 1), hm = frame.project(m, 1);
     if (hp.z < 0.1L || hq.z < 0.1L || hm.z < 0.1L) continue;
     if (glm::length(p - q) < 0.1L || glm::length(p - m) < 0.1L || glm::length(q - m) < 0.1L) continue;

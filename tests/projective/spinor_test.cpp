@@ -14,7 +14,7 @@ namespace {
 
 lvec3 point(const lvec4& x) { return lvec3(x) / x.w; }
 
-constexpr long double epsilon = 0x1p-63L;
+constexpr long double long_roundoff = 0x1p-63L;
 
 }  // namespace
 
@@ -45,9 +45,10 @@ TEST_CASE("every point of the sphere has a spinor", "[projective]") {
     const auto text = [&] { return fmt::format("({}, {}, {})", double(x.x), double(x.y), double(x.z)); };
     // x and y, which small ones keep all their digits: a few roundings of the square root and products.
     const long double size = std::hypot(x.x, x.y);
-    worst.add(double(std::hypot(found.x - x.x, found.y - x.y)), double(8 * epsilon * size) + 1e-300, text);
-    worst.add(double(std::abs(found.z - x.z)), double(8 * epsilon), text);
-    worst.add(double(std::abs(found.w - 1)), double(8 * epsilon), text);
+    worst.add(double(std::hypot(found.x - x.x, found.y - x.y)), double(8 * long_roundoff * size) + 1e-300,
+              text);
+    worst.add(double(std::abs(found.z - x.z)), double(8 * long_roundoff), text);
+    worst.add(double(std::abs(found.w - 1)), double(8 * long_roundoff), text);
   };
   for (int k = 0; k < 300; ++k) check(direction(make));
   for (const long double s : {1e-5L, 1e-12L, 1e-200L, 0.0L}) {
@@ -71,14 +72,14 @@ TEST_CASE("arcs pass through the point they should", "[projective]") {
     const lvec4 middle = delta(to_point(sp), to_point(sq));
     // Conditioned by the nearness of r to the ends.
     const double scale = double(1 / (glm::length(p - r) * glm::length(q - r)));
-    worst.add(double(glm::length(middle - lvec4(expected.b, expected.w))), 32 * double(epsilon) * scale,
+    worst.add(double(glm::length(middle - lvec4(expected.b, expected.w))), 32 * double(long_roundoff) * scale,
               text);
-    worst.add(double(glm::length(delta(sp) - lvec4(p, 1))), 8 * double(epsilon), text);
-    worst.add(double(glm::length(delta(sq) - lvec4(q, 1))), 16 * double(epsilon), text);
+    worst.add(double(glm::length(delta(sp) - lvec4(p, 1))), 8 * double(long_roundoff), text);
+    worst.add(double(glm::length(delta(sq) - lvec4(q, 1))), 16 * double(long_roundoff), text);
     // And r divides the segment in the ratio |d_rp| : |d_rq|, by lemma 3.7.
     const long double a = std::abs(det(spinor_at(r), sp)), b = std::abs(det(spinor_at(r), sq));
     const lvec4 at = (b * to_point(sp) + a * to_point(sq)) / (a + b);
-    worst.add(double(glm::length(point(delta(at)) - r)), 64 * double(epsilon) * scale, text);
+    worst.add(double(glm::length(point(delta(at)) - r)), 64 * double(long_roundoff) * scale, text);
     // With the printed sign the segment runs the other way round.
     const lvec4 other = (b * to_point(sp) - a * to_point(sq)) / (a + b);
     outside += glm::length(point(delta(other)) - r) > 1e-6L;

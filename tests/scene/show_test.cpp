@@ -114,7 +114,7 @@ TEST_CASE("wires are round and of their radius wherever the object stands", "[sc
       worst.add(off, 1e-13, [&] { return fmt::format("{} patch {}", object, k); });
     }
   };
-  // The square_object's sides, scaled unevenly and moved: cylinders between the images of their ends.
+  // The square's sides, scaled unevenly and moved: cylinders between the images of their ends.
   check(square_object + R"("show": ["boundary"], "wire": 0.02, "radius": 3, "center": [5, 6, 7],
                     "transform": [{"scale": [1, 2, 4]}]})",
         [](const dvec3& p) {

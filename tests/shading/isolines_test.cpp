@@ -13,7 +13,7 @@ using namespace rondure;
 
 namespace {
 
-// A line_grid of parameters that avoids the lines themselves.
+// A grid of parameters that avoids the lines themselves.
 constexpr int line_grid = 61;
 double grid_parameter(int i) { return (i + 0.5) / line_grid; }
 

@@ -19,10 +19,10 @@ namespace {
 
 using std::numbers::pi;
 
-const dvec3 up = glm::normalize(dvec3(0.3, -0.5, 0.8));
+const dvec3 surface_normal = glm::normalize(dvec3(0.3, -0.5, 0.8));
 
 dvec3 direction_at(double degrees) {
-  const Frame f = frame_about(up);
+  const Frame f = frame_about(surface_normal);
   const double a = degrees * pi / 180.0;
   return f.to_world({std::sin(a) * 0.6, std::sin(a) * 0.8, std::cos(a)});
 }
@@ -55,14 +55,15 @@ TEST_CASE("scattering samples follow their density", "[shading]") {
   for (const Material& material : rough_materials()) {
     for (const double angle : {0.0, 40.0, 80.0, 130.0}) {
       const dvec3 out = direction_at(angle);
-      const Frame frame = frame_about(2.0 * glm::dot(out, up) * up - out);  // the lobe at the pole
+      const Frame frame =
+          frame_about(2.0 * glm::dot(out, surface_normal) * surface_normal - out);  // the lobe at the pole
       std::vector<double> found(bins, 0.0), expected(bins, 0.0);
       double lost = 0.0;
       WorstCase agreement;
       for (int i = 0; i < n; ++i) {
         Sampler sampler(11, i, 0, 0);  // a pixel a sample: independent, as chi-square asks
         const double lobe = sampler.next_1d();
-        const auto s = sample_scattering(material, up, out, lobe, sampler.next_2d());
+        const auto s = sample_scattering(material, surface_normal, out, lobe, sampler.next_2d());
         if (!s) {
           ++lost;
           continue;
@@ -70,10 +71,10 @@ TEST_CASE("scattering samples follow their density", "[shading]") {
         ++found[bin_of(frame, s->direction)];
         // Sample, density and value are computed on different ways; the half vector between nearly mirrored
         // directions keeps 1e-16, and the narrowest lobe magnifies it by 1 / alpha^2 = 400.
-        const double pdf = scattering_pdf(material, up, out, s->direction);
+        const double pdf = scattering_pdf(material, surface_normal, out, s->direction);
         const auto describe = [&] { return std::to_string(angle) + " degrees, sample " + std::to_string(i); };
         agreement.add(std::abs(pdf / s->pdf - 1.0), 1e-9, describe);
-        const dvec3 f = evaluate_scattering(material, up, out, s->direction);
+        const dvec3 f = evaluate_scattering(material, surface_normal, out, s->direction);
         agreement.add(glm::length(f - s->weight * s->pdf), 1e-9 * (1.0 + s->pdf), describe);
       }
       for (int ring = 0; ring < rings; ++ring) {
@@ -86,7 +87,7 @@ TEST_CASE("scattering samples follow their density", "[shading]") {
             const double r = std::sqrt(1.0 - z * z);
             const dvec3 in = frame.to_world({r * std::cos(a), r * std::sin(a), z});
             const double solid_angle = 8.0 * pi * along / bins / (sub_s * sub_a);  // 4 s ds da
-            sum += scattering_pdf(material, up, out, in) * solid_angle * n;
+            sum += scattering_pdf(material, surface_normal, out, in) * solid_angle * n;
           }
         }
       }
@@ -127,7 +128,7 @@ TEST_CASE("no material returns more light than it gets, and diffuse returns its 
       for (std::uint32_t i = 0; i < n; ++i) {
         Sampler sampler(5, 1, 1, i);
         const double lobe = sampler.next_1d();
-        const auto s = sample_scattering(material, up, out, lobe, sampler.next_2d());
+        const auto s = sample_scattering(material, surface_normal, out, lobe, sampler.next_2d());
         if (s) sum += s->weight / s->squeeze;
       }
       sum /= double(n);
@@ -147,11 +148,13 @@ TEST_CASE("scattering is reciprocal", "[shading]") {
   for (const Material& material : rough_materials()) {
     for (int i = 0; i < 2000; ++i) {
       Sampler sampler(6, i, 0, 0);
-      const Frame f = frame_about(i % 2 == 0 ? up : -up);
+      const Frame f = frame_about(i % 2 == 0 ? surface_normal : -surface_normal);
       const dvec3 a = f.to_world(sample_cosine_hemisphere(sampler.next_2d()));
       const dvec3 b = f.to_world(sample_cosine_hemisphere(sampler.next_2d()));
-      const dvec3 ab = evaluate_scattering(material, up, a, b) / std::abs(glm::dot(up, b));
-      const dvec3 ba = evaluate_scattering(material, up, b, a) / std::abs(glm::dot(up, a));
+      const dvec3 ab =
+          evaluate_scattering(material, surface_normal, a, b) / std::abs(glm::dot(surface_normal, b));
+      const dvec3 ba =
+          evaluate_scattering(material, surface_normal, b, a) / std::abs(glm::dot(surface_normal, a));
       // Cosines as small as 1e-3 lose three digits.
       worst.add(glm::length(ab - ba), 1e-10 * glm::length(ab) + 1e-300, [&] { return std::to_string(i); });
     }
@@ -218,19 +221,19 @@ TEST_CASE("glass obeys Snell's law and splits light by Fresnel's", "[shading]") 
   const Material glass{Dielectric{1.5, dvec3(0.8)}};
   for (const double angle : {0.0, 25.0, 70.0, 120.0, 160.0}) {
     const dvec3 out = direction_at(angle);
-    const double side = glm::dot(out, up);
+    const double side = glm::dot(out, surface_normal);
     const double eta = side > 0 ? 1.5 : 1.0 / 1.5;
     const double reflectance = fresnel_dielectric(std::abs(side), eta);
-    const auto reflected = sample_scattering(glass, up, out, 0.5 * reflectance, {});
+    const auto reflected = sample_scattering(glass, surface_normal, out, 0.5 * reflectance, {});
     REQUIRE(reflected);
-    CHECK(glm::length(reflected->direction + out - 2.0 * side * up) < 1e-15);
+    CHECK(glm::length(reflected->direction + out - 2.0 * side * surface_normal) < 1e-15);
     CHECK(reflected->weight == dvec3(1.0));
     if (reflectance == 1.0) continue;  // beyond the critical angle
-    const auto refracted = sample_scattering(glass, up, out, 0.5 * (1.0 + reflectance), {});
+    const auto refracted = sample_scattering(glass, surface_normal, out, 0.5 * (1.0 + reflectance), {});
     REQUIRE(refracted);
     const dvec3 in = refracted->direction;
-    CHECK(glm::dot(in, up) * side < 0.0);
-    CHECK(glm::length(glm::cross(out, up) + eta * glm::cross(in, up)) < 1e-14);
+    CHECK(glm::dot(in, surface_normal) * side < 0.0);
+    CHECK(glm::length(glm::cross(out, surface_normal) + eta * glm::cross(in, surface_normal)) < 1e-14);
     CHECK(refracted->weight.x == Approx(0.8 / (eta * eta)));
     CHECK(refracted->squeeze == Approx(1.0 / (eta * eta)));
     CHECK((refracted->specular && is_specular(glass)));

@@ -1,4 +1,4 @@
-// The place in a container of a number that is kept as an int, and is not negative.
+// The place in a container of what is counted by a signed integer that is not negative.
 #pragma once
 
 #include <cstddef>
