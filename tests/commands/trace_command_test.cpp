@@ -140,8 +140,8 @@ TEST_CASE("trace points at what is wrong with a table", "[command]") {
   };
   const Case cases[] = {
       {"0,0,3,0,0",
-       "2:10: expected 6 columns at least (ox,oy,oz,dx,dy,dz,tmin,tmax), found 5\n    0,0,3,0,0\n            "
-       " ^"},
+       "2:10: expected 6 columns at least (ox,oy,oz,dx,dy,dz,tmin,tmax), found 5\n    0,0,3,0,0\n"
+       "             ^"},
       {"0,0,3,0,0,x", "2:11: \"dz\" must be a number, found \"x\"\n    0,0,3,0,0,x\n              ^"},
       {"0,0,3,0,0,+-1", "2:11: \"dz\" must be a number, found \"+-1\"\n    0,0,3,0,0,+-1\n              ^"},
       {"0,0,3,0,0,0", "2:7: the direction is zero\n    0,0,3,0,0,0\n          ^"},
