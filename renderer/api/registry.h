@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/api/integrator.h"
@@ -15,10 +16,15 @@ namespace rondure {
 
 class Registry {
  public:
-  // Throws std::runtime_error when the name is empty, improper or taken, or the factory is null.
+  // Throws std::runtime_error when the name is empty, improper or taken, the factory is null, or a layer's
+  // channels are none, or have improper names, units or scales.
   void add(SurfaceFamily family);
   void add(IntegratorFactory factory);
   void add(LayerFactory factory);
+
+  // A file that some of it came from.
+  void add_plugin(std::string path) { plugins_.push_back(std::move(path)); }
+  const std::vector<std::string>& plugins() const { return plugins_; }
 
   const SurfaceFamily* family(std::string_view name) const;  // null when unknown
   const IntegratorFactory* integrator(std::string_view name) const;
@@ -31,6 +37,7 @@ class Registry {
   std::map<std::string, SurfaceFamily, std::less<>> families_;
   std::map<std::string, IntegratorFactory, std::less<>> integrators_;
   std::map<std::string, LayerFactory, std::less<>> layers_;
+  std::vector<std::string> plugins_;
 };
 
 // The family that "type" names; an unknown name is an error that gives the nearest.

@@ -26,6 +26,7 @@
 #include "renderer/film/preview.h"
 #include "renderer/film/resume_state.h"
 #include "renderer/layers/certificate.h"
+#include "renderer/plugin/call_plugin.h"
 #include "renderer/render/interrupt.h"
 #include "renderer/render/progress.h"
 #include "renderer/render/resume_key.h"
@@ -120,6 +121,19 @@ void refuse_other_format(const std::string& path, std::string_view written, cons
     if (ending == known && known != written) throw std::runtime_error(fmt::format("{}: {}", path, advice));
 }
 
+// What the preview is to tell of its colours: asked for, and checked, before the work.
+std::optional<Legend> legend_of(const Scene& scene) {
+  const std::string who = fmt::format("the integrator \"{}\"", scene.integrator_name);
+  std::optional<Legend> legend;
+  try {
+    legend = scene.integrator->legend();
+  } catch (...) {
+    throw std::runtime_error(who + " " + plugin_failure());
+  }
+  if (legend) check_legend(*legend, who);
+  return legend;
+}
+
 void note(const RenderCommand& options, const std::string& text) {
   if (!options.quiet) std::fputs((text + "\n").c_str(), stderr);  // fmt::print throws where nobody listens
 }
@@ -151,11 +165,13 @@ void run_render(const Registry& registry, RenderCommand options) {
   refuse_other_format(options.png, ".png", "--png writes PNG; for OpenEXR there is -o");
   Film film = make_film(scene, settings);
   check_writable(options.output);
+  std::optional<Legend> legend;
   if (!options.png.empty()) {
     check_writable(options.png);
     require_image_module();
+    legend = legend_of(scene);
   }
-  const std::string key = options.resume ? resume_key(scene, film) : "";
+  const std::string key = options.resume ? resume_key(scene, film, registry.plugins()) : "";
   const std::string solvers = solver_names(scene);
   for (const std::string& warning : scene_warnings(scene)) note(options, warning);
   const Tracer tracer = tracer_of(scene);
@@ -167,8 +183,7 @@ void run_render(const Registry& registry, RenderCommand options) {
   if (!options.png.empty()) {
     std::vector<unsigned char> bytes = preview(film, options.exposure);
     int height = film.window().height();
-    if (const auto legend = scene.integrator->legend())
-      height = append_legend(bytes, film.window().width(), height, *legend);
+    if (legend) height = append_legend(bytes, film.window().width(), height, *legend);
     write_png(options.png, film.window().width(), height, bytes);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -6,6 +6,7 @@
 
 #include "renderer/api/utf8.h"
 #include "renderer/film/exr.h"
+#include "renderer/plugin/call_plugin.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
@@ -48,7 +49,9 @@ FilmLayer read_layer(const Value& value, const Params& parent, const std::string
         "as",
         "\"as\" must be a name of letters, digits and underscores, which the layer's channels begin with");
   for (const std::string& channel : factory->channels) layer.channels.push_back(group + "." + channel);
-  layer.function = factory->create(params);
+  const std::string who = fmt::format("the layer \"{}\"", layer.type);
+  layer.function = call_plugin(params, who, [&] { return factory->create(params); });
+  if (!layer.function) params.fail(who + " made nothing");
   layer.units = factory->units;
   layer.units.resize(layer.channels.size());
   layer.scales = factory->scales;

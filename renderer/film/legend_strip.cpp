@@ -4,11 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "renderer/api/utf8.h"
 #include "renderer/film/image.h"
 #include "renderer/film/preview.h"
 
 namespace rondure {
+
+void check_legend(const Legend& legend, const std::string& who) {
+  constexpr std::size_t longest = 256;
+  const auto refuse = [&](const char* fault) {
+    throw std::runtime_error(fmt::format("{} made a legend that has {}", who, fault));
+  };
+  const auto finite = [](const dvec3& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+  };
+  if (legend.colors.empty()) refuse("no colours");
+  if (!std::all_of(legend.colors.begin(), legend.colors.end(), finite)) refuse("a colour that is not finite");
+  if (!is_scale(legend.low, legend.high, legend.logarithmic))
+    refuse("no range of numbers from low to high, positive where logarithmic");
+  if (legend.title.size() > longest || printable(legend.title, longest) != legend.title)
+    refuse("a title that is no short line of text");
+}
 
 std::vector<double> legend_ticks(const Legend& legend, int most) {
   std::vector<double> ticks;

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "renderer/api/utf8.h"
 #include "renderer/bezier/bernstein.h"
+#include "renderer/continuity/seams.h"
 #include "renderer/intersect/ellipsoid.h"
+#include "renderer/intersect/query.h"
 #include "renderer/plugin/call_plugin.h"
 
 namespace rondure {
@@ -43,6 +46,18 @@ std::string defect_of(const Guide& guide) {
   return defect_of(guide.curve, static_cast<int>(guide.curve.size()));
 }
 
+std::string defect_of(const SideJoin& join, const std::vector<Net>& patches) {
+  for (const auto& [patch, side] :
+       {std::pair{join.patch, join.side}, std::pair{join.other, join.other_side}}) {
+    if (patch < 0 || static_cast<std::size_t>(patch) >= patches.size())
+      return fmt::format("is of a patch {}, and there are {}", patch, patches.size());
+    const int sides = side_count(patches[static_cast<std::size_t>(patch)]);
+    if (side < 0 || side >= sides)
+      return fmt::format("is of a side {}, and patch {} has {}", side, patch, sides);
+  }
+  return "";
+}
+
 // What is wrong with the surface; empty when nothing is.
 std::string defect_of(const Surface& surface) {
   if (!is_finite(surface.origin)) return "has an origin that is not finite";
@@ -60,6 +75,10 @@ std::string defect_of(const Surface& surface) {
     const std::string defect = std::visit([](const auto& net) { return defect_of(net); }, surface.patches[k]);
     if (!defect.empty()) return fmt::format("has a patch {} that {}", k, defect);
   }
+  for (const SideJoin& join : surface.joins) {
+    const std::string defect = defect_of(join, surface.patches);
+    if (!defect.empty()) return "has a join that " + defect;
+  }
   for (const auto& [part, guides] : surface.guides) {
     for (const Guide& guide : guides) {
       const std::string defect = defect_of(guide);
@@ -76,6 +95,7 @@ Surface build_surface(const SurfaceFamily& family, Params& params) {
   Surface surface = call_plugin(params, who, [&] { return family.build(params); });
   const std::string defect = defect_of(surface);
   if (!defect.empty()) params.fail(fmt::format("{} made a surface that {}", who, defect));
+  for (Net& net : surface.patches) bring_near_one(net);
   return surface;
 }
 

@@ -1,4 +1,4 @@
-// Calls into families and integrators, which may come from anywhere.
+// Calls into families, integrators and layers, which may come from anywhere.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,20 +10,30 @@
 
 namespace rondure {
 
+// For a catch (...) around such a call: what to say of the exception, behind who threw it. A SceneError and
+// want of memory, which speak for themselves, are thrown on.
+inline std::string plugin_failure() {
+  try {
+    throw;
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return fmt::format("failed: {}", error.what());
+  } catch (...) {
+    return "failed with an exception of unknown type";
+  }
+}
+
 // What `call()` returns. What it throws, other than a SceneError or for want of memory, becomes a SceneError
 // at `params`; `who` opens its message: "the family \"x\"".
 template <class Call>
 auto call_plugin(const Params& params, const std::string& who, const Call& call) -> decltype(call()) {
   try {
     return call();
-  } catch (const SceneError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    params.fail(fmt::format("{} failed: {}", who, error.what()));
   } catch (...) {
-    params.fail(who + " failed with an exception of unknown type");
+    params.fail(who + " " + plugin_failure());
   }
 }
 

@@ -80,6 +80,7 @@ void load_file(const std::string& path, Registry& registry) {
   if (!end.empty())
     throw std::runtime_error("plugin " + path + ": it ends the process that loads it: " + end);
   load_now(path, opened, registry);
+  registry.add_plugin(opened);
 }
 
 // The shared objects that `path` stands for: itself, or a folder's *.so.

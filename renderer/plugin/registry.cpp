@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/api/legend.h"
 #include "renderer/api/utf8.h"
 #include "renderer/plugin/build_surface.h"
 #include "renderer/scene/unknown_name.h"
@@ -35,6 +36,22 @@ void add_to(Map& map, Item item, bool callable, const char* kind) {
     throw std::runtime_error(std::string("the name \"") + name + "\" is taken by another " + kind);
 }
 
+// What is wrong with a layer's channels, which become names in a file and words below a picture; "" if
+// nothing.
+std::string fault_of(const LayerFactory& layer) {
+  constexpr std::size_t longest_unit = 100;
+  for (const std::string& channel : layer.channels)
+    if (channel.empty() || !is_name(channel))
+      return "a channel \"" + printable(channel) + "\" without a proper name";
+  for (const std::string& unit : layer.units)
+    if (unit.size() > longest_unit || printable(unit, longest_unit) != unit)
+      return "a unit that is no short line of text";
+  for (const LayerScale& scale : layer.scales)
+    if (!is_scale(scale.low, scale.high, scale.logarithmic))
+      return "a scale that is no range of numbers from low to high, positive where logarithmic";
+  return "";
+}
+
 template <class Map>
 auto find_in(const Map& map, std::string_view name) -> const typename Map::mapped_type* {
   const auto found = map.find(name);
@@ -62,6 +79,8 @@ void Registry::add(IntegratorFactory factory) {
 
 void Registry::add(LayerFactory factory) {
   const bool callable = static_cast<bool>(factory.create) && !factory.channels.empty();
+  const std::string fault = callable ? fault_of(factory) : "";
+  if (!fault.empty()) throw std::runtime_error("the layer \"" + printable(factory.name) + "\" has " + fault);
   add_to(layers_, std::move(factory), callable, "layer");
 }
 

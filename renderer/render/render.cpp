@@ -12,12 +12,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
 
 #include "renderer/parallel/parallel_for.h"
+#include "renderer/plugin/call_plugin.h"
 
 namespace rondure {
 namespace {
@@ -100,8 +100,8 @@ void take_layers(const Job& job, const Ray& ray, const Hit& hit, std::size_t at,
     values.assign(layer.channels.size(), 0.0);
     try {
       layer.function(job.world, ray, hit, values.data());
-    } catch (const std::exception& error) {
-      throw LayerError(fmt::format("the layer \"{}\" failed: {}", layer.type, error.what()));
+    } catch (...) {
+      throw LayerError(fmt::format("the layer \"{}\" {}", layer.type, plugin_failure()));
     }
     for (const double value : values) {
       film.layers[plane].values[at] = stored(value, film.layers[plane].channel);
@@ -231,14 +231,9 @@ void add_samples(Film& film, std::uint32_t samples, const Scene& scene, const Wo
     throw;
   } catch (const LayerError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {  // nobody else throws here
+  } catch (...) {  // nobody else throws here
     throw std::runtime_error(
-        fmt::format("the integrator \"{}\" failed: {}", scene.integrator_name, error.what()));
-  } catch (...) {
-    throw std::runtime_error(
-        fmt::format("the integrator \"{}\" failed with an exception of unknown type", scene.integrator_name));
+        fmt::format("the integrator \"{}\" {}", scene.integrator_name, plugin_failure()));
   }
   film.has_geometry = true;
   film.samples = samples;

@@ -3,7 +3,7 @@
 // The language is JSON (RFC 8259) with // and /* */ comments. Refused, with file, line and column: duplicate
 // keys, anything after the document, text that is not UTF-8, numbers beyond the range of a double (so NaN and
 // infinities cannot occur), nesting deeper than 256, files over 512 MiB, more than 2^25 values (4 GB as a
-// tree).
+// tree, 6 while it grows).
 #pragma once
 
 #include <cstddef>

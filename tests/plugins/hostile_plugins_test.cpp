@@ -77,6 +77,10 @@ TEST_CASE("a family that breaks its promises is refused at the object", "[plugin
       {"large_triangle", "made a surface that has a patch 0 that has degree 1000, and degrees are 1 to 24"},
       {"both", "made a surface that is an ellipsoid and patches at once"},
       {"nan_origin", "made a surface that has an origin that is not finite"},
+      {"join_patch", "made a surface that has a join that is of a patch 99999999, and there are 1"},
+      {"join_negative", "made a surface that has a join that is of a patch -5, and there are 1"},
+      {"join_side", "made a surface that has a join that is of a side 77, and patch 0 has 4"},
+      {"join_other_side", "made a surface that has a join that is of a side -3, and patch 0 has 4"},
       {"nan_guide",
        "made a surface that has a guide in \"ribs\" that has a control point that is not finite"},
       {"no_guide",
@@ -148,6 +152,75 @@ TEST_CASE("an integrator that breaks its promises ends the render with a message
   CHECK(render("nan").err.starts_with(
       "rondure: error: 128 of the picture's samples were negative, not finite"));
   CHECK(render("well").exit_code == 0);
+}
+
+TEST_CASE("a legend that cannot be drawn is refused before the render", "[plugin][hostile]") {
+  struct Row {
+    std::string as, message;
+  };
+  const Row table[] = {
+      {"throws_legend", "failed: no licence for words"},
+      {"throws_number_legend", "failed with an exception of unknown type"},
+      {"no_colors", "made a legend that has no colours"},
+      {"nan_color", "made a legend that has a colour that is not finite"},
+      {"log_zero", "made a legend that has no range of numbers from low to high, positive where logarithmic"},
+      {"log_negative",
+       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
+      {"nan_scale",
+       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
+      {"empty_scale",
+       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
+      {"wide_scale",
+       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
+      {"bad_title", "made a legend that has a title that is no short line of text"},
+      {"long_title", "made a legend that has a title that is no short line of text"},
+  };
+  const std::string folder = folder_with("hostile_legends");
+  const auto render = [&](const std::string& as) {
+    return run_rondure({"render", "scene.json", "--resolution", "64x8", "--spp", "1", "--quiet", "-o",
+                        "out.exr", "--png", "out.png", "--plugin", plugin_path("absurd"), "--set",
+                        "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}"},
+                       {folder, {}, ""});
+  };
+  for (const Row& row : table) {
+    const ProcessResult result = render(row.as);
+    CAPTURE(row.as);
+    CHECK(result.err == "rondure: error: the integrator \"absurd\" " + row.message + "\n");
+    CHECK(result.exit_code == 1);
+    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
+  }
+  CHECK(render("well").exit_code == 0);
+  CHECK(names_in(folder) == std::vector<std::string>{"out.exr", "out.png", "scene.json"});
+}
+
+TEST_CASE("a layer that breaks its promises ends the render with a message", "[plugin][hostile]") {
+  struct Row {
+    std::string as, message;
+  };
+  const Row table[] = {
+      {"null", "scene.json: layers[0]: the layer \"absurd\" made nothing"},
+      {"throws", "scene.json: layers[0]: the layer \"absurd\" failed: no licence for layers"},
+      {"throws_number",
+       "scene.json: layers[0]: the layer \"absurd\" failed with an exception of unknown type"},
+      {"throws_late", "the layer \"absurd\" failed: no licence for numbers"},
+      {"throws_number_late", "the layer \"absurd\" failed with an exception of unknown type"},
+      {"nan", "the layer \"Absurd.x\" gave no number for a pixel"},
+  };
+  const std::string folder = folder_with("hostile_layers");
+  const auto render = [&](const std::string& as) {
+    return run_rondure(
+        {"render", "scene.json", "--resolution", "8x8", "--spp", "1", "--quiet", "-o", "out.exr", "--plugin",
+         plugin_path("absurd"), "--set", "/film/layers=[{\"type\": \"absurd\", \"does\": \"" + as + "\"}]"},
+        {folder, {}, ""});
+  };
+  for (const Row& row : table) {
+    const ProcessResult result = render(row.as);
+    CAPTURE(row.as);
+    CHECK(result.err == "rondure: error: " + row.message + "\n");
+    CHECK(result.exit_code == 1);
+    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
+  }
+  CHECK(render("well").exit_code == 0);  // an infinity is a large number
 }
 
 }  // namespace

@@ -123,8 +123,18 @@ TEST_CASE("the key of saved sums tells scenes apart, also by what their text onl
   CHECK(resume_key(scene, film) == key);
   write_png(file, 4, 2, std::vector<unsigned char>(24, 254));
   CHECK(resume_key(scene, film) != key);
-  scene.sampling.seed = 2;
   write_png(file, 4, 2, std::vector<unsigned char>(24, 255));
+  // Plugins by what their files hold.
+  const std::string plugin = fresh_folder("resume_key_plugin") + "/p.so";
+  write_text_file(plugin, "one");
+  const std::string with_plugin = resume_key(scene, film, {plugin});
+  CHECK(with_plugin != key);
+  write_text_file(plugin, "two");
+  CHECK(resume_key(scene, film, {plugin}) != with_plugin);
+  write_text_file(plugin, "one");
+  CHECK(resume_key(scene, film, {plugin}) == with_plugin);
+  CHECK_THROWS_WITH(resume_key(scene, film, {plugin + "x"}), "plugin " + plugin + "x: it cannot be read");
+  scene.sampling.seed = 2;
   CHECK(resume_key(scene, film) != key);
 }
 

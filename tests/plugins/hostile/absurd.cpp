@@ -1,4 +1,4 @@
-// A plugin whose families and integrators do what "as" says, and nothing of it right.
+// A plugin whose families, integrators and layers do what "as" says, and nothing of it right.
 #include <array>
 #include <limits>
 #include <new>
@@ -54,6 +54,10 @@ Surface build(Params& params) {
   surface = with(net);
   if (as == "both") surface.ellipsoid = dmat3(1.0);
   if (as == "nan_origin") surface.origin.z = nan;
+  if (as == "join_patch") surface.joins = {{0, 1, 99'999'999, 2}};
+  if (as == "join_negative") surface.joins = {{-5, 0, 0, 1}};
+  if (as == "join_side") surface.joins = {{0, 77, 0, 1}};
+  if (as == "join_other_side") surface.joins = {{0, 3, 0, -3}};
   if (as == "nan_guide") surface.guides["ribs"] = {{{dvec4(1.0), dvec4(nan)}, 1.0}};
   if (as == "no_guide") surface.guides["ribs"] = {{}};
   if (as == "nan_ellipsoid" || as == "flat_ellipsoid") {
@@ -71,6 +75,22 @@ class Absurd final : public Integrator {
     if (as_ == "throws_number_late") throw 42;
     return dvec3(as_ == "nan" ? nan : 1.0);
   }
+  std::optional<Legend> legend() const override {
+    if (as_ == "throws_legend") throw std::runtime_error("no licence for words");
+    if (as_ == "throws_number_legend") throw 42;
+    if (as_ == "no_colors") return Legend();
+    Legend legend;
+    legend.colors.assign(2, dvec3(0.5));
+    if (as_ == "log_zero") legend.low = 0.0, legend.logarithmic = true;
+    if (as_ == "log_negative") legend.low = -1.0, legend.logarithmic = true;
+    if (as_ == "nan_scale") legend.low = nan;
+    if (as_ == "empty_scale") legend.low = legend.high;
+    if (as_ == "wide_scale") legend.high = infinite;
+    if (as_ == "nan_color") legend.colors[1].z = nan;
+    if (as_ == "bad_title") legend.title = "\x1b[2J";
+    if (as_ == "long_title") legend.title.assign(10'000, 'x');
+    return legend;
+  }
 
  private:
   std::string as_;
@@ -84,11 +104,24 @@ std::unique_ptr<Integrator> create(Params& params) {
   return std::make_unique<Absurd>(std::move(as));
 }
 
+LayerFunction create_layer(Params& params) {
+  const std::string as = params.text("does", "well");  // "as" names the channels
+  if (as == "null") return nullptr;
+  if (as == "throws") throw std::runtime_error("no licence for layers");
+  if (as == "throws_number") throw 42;
+  return [as](const World&, const Ray&, const Hit&, double* values) {
+    if (as == "throws_late") throw std::runtime_error("no licence for numbers");
+    if (as == "throws_number_late") throw 42;
+    values[0] = as == "nan" ? nan : infinite;
+  };
+}
+
 }  // namespace
 
 void register_absurd(Registry& registry) {
   registry.add(SurfaceFamily{"absurd", "all that a surface must not be", {}, build});
   registry.add(IntegratorFactory{"absurd", "all that an integrator must not do", {}, create});
+  registry.add(LayerFactory{"absurd", "all that a layer must not do", "Absurd", {"x"}, {}, create_layer});
 }
 
 }  // namespace rondure
