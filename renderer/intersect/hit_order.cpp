@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "renderer/bezier/quotient.h"
+
 namespace rondure {
 namespace {
 
@@ -23,6 +25,19 @@ double apart_by_points(const Query& q, const Hit& a, const Hit& b) {
   const double length = largest(q.ray->direction);
   const dvec3 d = q.ray->direction / length;
   return glm::dot(a.point - b.point, d) / (glm::dot(d, d) * length);
+}
+
+// What rounding may make of that.
+double point_rounding(const Query& q, const Hit& a, const Hit& b) {
+  const PlacedSurface &first = q.surfaces[a.surface], &second = q.surfaces[b.surface];
+  const double size = largest(a.point) + largest(b.point) + extent_of(first) + extent_of(second);
+  return quotient(0x1p-51 * size, largest(q.ray->direction));
+}
+
+// Whether the ray goes in by one and out by the other.
+bool are_opposite(const Query& q, const Hit& a, const Hit& b) {
+  const dvec3& d = q.ray->direction;
+  return glm::dot(a.normal, d) > 0.0 ? glm::dot(b.normal, d) < 0.0 : glm::dot(b.normal, d) > 0.0;
 }
 
 // So nearly along the wall that its two crossings may be tied with each other.
@@ -76,12 +91,16 @@ bool are_tied(const Query& q, const Hit& a, const Hit& b) {
 }
 
 bool comes_first(const Query& q, const Hit& a, const Hit& b) {
-  if (a.surface == b.surface || grazes(q, a) || grazes(q, b)) return nearer(a, b);
-  if (!are_tied(q, a, b)) {
-    // From far away t may not tell which is nearer; points do.
-    if (std::fabs(a.t - b.t) > 0x1p-51 * (std::fabs(a.t) + std::fabs(b.t))) return nearer(a, b);
-    return apart_by_points(q, a, b) < 0.0;
+  // From far away t may not tell which is nearer; points do.
+  const bool far = std::fabs(a.t - b.t) <= 0x1p-51 * (std::fabs(a.t) + std::fabs(b.t));
+  if (a.surface == b.surface && (!far || !are_opposite(q, a, b))) return nearer(a, b);
+  if (grazes(q, a) || grazes(q, b)) return nearer(a, b);
+  if (a.surface == b.surface) {
+    // Of a body's two walls the near one, unless they are in one place.
+    const double apart = apart_by_points(q, a, b);
+    return std::fabs(apart) > point_rounding(q, a, b) ? apart < 0.0 : nearer(a, b);
   }
+  if (!are_tied(q, a, b)) return far ? apart_by_points(q, a, b) < 0.0 : nearer(a, b);
   const auto wall = [](const Hit& hit) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };

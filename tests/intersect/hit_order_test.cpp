@@ -5,8 +5,12 @@
 
 #include <fmt/core.h>
 
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
 #include "tests/catch.h"
 #include "tests/intersect/boxes.h"
+#include "tests/intersect/mapped.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/intersect/same_bits.h"
@@ -75,4 +79,41 @@ TEST_CASE("The closest hit is the first where a thin body shares a wall", "[hits
     }
   CHECK(tied > 500);
   CHECK(differ == 0);
+}
+
+// From so far away that both walls of a body have one t, points tell which is nearer.
+TEST_CASE("From far away the near wall of a body is met first", "[hits]") {
+  const Surface tiling = build_family(R"({"type": "sphere_tiling", "topology": "cube"})"),
+                pairs = build_family(R"({"type": "sphere_tiling", "topology": "octahedron_pairs"})"),
+                lens = mapped(tiling, glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 1e-9)));
+  long rays = 0, wrong = 0, disordered = 0;
+  const auto meet = [&](const Tracer& tracer, const Ray& ray) {
+    const std::vector<Hit> all = tracer.all(ray);
+    const Hit closest = tracer.closest(ray);
+    ++rays;
+    wrong += !closest || glm::dot(closest.normal, ray.direction) > 0.0;
+    disordered += all.size() != 2 || !same_bits(all[0], closest) || !(all[0].t <= all[1].t);
+  };
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> part(-0.6, 0.6);
+  for (const Solver solver : {Solver::newton, Solver::clipping, Solver::quadric}) {
+    const Tracer thin({{lens, solver}});
+    for (const double away : {1e7, 1e8, -1e8})
+      for (int k = 0; k < 200; ++k)
+        meet(thin, {{part(random), part(random), away}, {0.0, 0.0, away > 0.0 ? -1.0 : 1.0}});
+    for (const Surface& ball : {tiling, pairs}) {
+      const Tracer tracer({{ball, solver}});
+      for (const double away : {1e15, -1e15, 2e16, -2e16, 1e17, -1e17})
+        for (int k = 0; k < 50; ++k)
+          meet(tracer, {{away, part(random), part(random)}, {away > 0.0 ? -1.0 : 1.0, 0.0, 0.0}});
+    }
+    // So small where it is that its walls have one t and one point: the patches' numbers decide, and both
+    // walls are told.
+    CHECK(Tracer({{placed(tiling, 3e-17, dvec3(1.0)), solver}})
+              .all({{0.0, 1.0, 1.0}, {1.0, 0.0, 0.0}})
+              .size() == 2);
+  }
+  INFO(rays << " rays, " << disordered << " disordered");
+  CHECK(wrong == 0);
+  CHECK(disordered == 0);
 }
