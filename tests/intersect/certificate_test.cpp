@@ -31,23 +31,29 @@ std::string text_of(const Ray& ray) {
 
 TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
   std::mt19937_64 random(7);
-  long certified = 0, refused = 0, contradicted = 0;
+  long certified = 0, refused = 0, contradicted = 0, alone = 0, crowded = 0;
   std::string worst = "none";
-  WorstCase t, radius;
-  for (const ClosedModel& model : closed_models()) {
-    const Tracer tracer({{model.surface, Solver::newton}});
-    const Certifier certifier(tracer);
-    const long rays = static_cast<long>(soaked(11, 3000));
+  WorstCase t, point, radius;
+  const std::vector<ClosedModel>& models = closed_models();
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const ClosedModel& model = models[m];
+    const Tracer tracers[] = {Tracer({{model.surface, Solver::newton}}),
+                              Tracer({{model.surface, Solver::clipping}}),
+                              Tracer({{model.surface, Solver::quadric}})};
+    const Certifier certifiers[] = {Certifier(tracers[0]), Certifier(tracers[1]), Certifier(tracers[2])};
+    const long rays = static_cast<long>(soaked(12, 3000));
     for (long k = 0; k < rays; ++k) {
       const auto which = static_cast<RayClass>(k % static_cast<long>(RayClass::count));
       if (which == RayClass::from_surface) continue;
       const Ray ray = aim(model, which, random).ray;
-      const Hit hit = tracer.closest(ray);
-      const Certificate c = certifier.certify(ray, hit);
+      const std::size_t solver = (m + static_cast<std::size_t>(k)) % std::size(tracers);
+      const Hit hit = tracers[solver].closest(ray);
+      const Certificate c = certifiers[solver].certify(ray, hit);
       ++(c ? certified : refused);
       if (!c) continue;
+      const std::vector<oracle::Root> roots = oracle::meet(model.surface, ray).roots;
       double first = INFINITY;
-      for (const oracle::Root& root : oracle::meet(model.surface, ray).roots)
+      for (const oracle::Root& root : roots)
         if (root.t >= 0.0 && root.outside <= 0x1p-50) first = std::min(first, root.t);
       const auto describe = [&] { return model.name + ": " + text_of(ray); };
       if (static_cast<bool>(hit) != (first < INFINITY) && c.means != Means::boundary) {
@@ -59,17 +65,34 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
       t.add(std::fabs(hit.t - first), c.t_error + 0x1p-53 * first, describe);
       radius.add(c.t_error, 1e-9 * (std::fabs(hit.t) + quotient(model.radius, glm::length(ray.direction))),
                  describe);
+      // Its point too, and the hit's in the frame: half an ulp of three coordinates each.
+      double off = INFINITY;
+      long near = 0;
+      for (const oracle::Root& root : roots) {
+        if (root.patch != hit.patch) continue;
+        near += std::max(std::fabs(root.u - hit.u), std::fabs(root.v - hit.v)) < c.isolation;
+        off = std::fmin(off, glm::length(hit.point - model.surface.origin - root.point));
+      }
+      ++alone;
+      crowded += c.unique && near > 1;  // where parameters are ill-conditioned the root itself may be further
+      point.add(off, c.point_error + 0x1p-51 * model.radius, describe);
     }
   }
-  WARN(certified << " certified, " << refused << " not");
+  WARN(certified << " certified, " << refused << " not; t: " << t.text() << "\npoint: " << point.text());
   INFO("contradicted: " << worst);
   INFO("t: " << t.text());
+  INFO("point: " << point.text());
   INFO("radius: " << radius.text());
   CHECK(contradicted == 0);
+  CHECK(crowded == 0);
   CHECK(t.failures() == 0);
-  // Rays are aimed where no proof can be had: within rounding of tangency and at singular points.
+  CHECK(point.failures() == 0);
+  // Rays are aimed where no proof can be had, or none that is narrow: within rounding of tangency and at
+  // singular points.
   CHECK(refused < certified / 5);
+  CHECK(radius.failures() < radius.count() / 10);
   CHECK(t.count() > certified / 3);
+  CHECK(alone == t.count());
 }
 
 TEST_CASE("A hit on an analytic sphere does not stand in its own way", "[certificate]") {

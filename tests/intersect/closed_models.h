@@ -27,9 +27,9 @@ const std::vector<ClosedModel>& closed_models();
 ClosedModel placed(const ClosedModel& model, double scale, const dvec3& center);
 
 // How far from touching the surface a ray may be and yet be answered either way, in scene units. A root
-// counts when its residual is below `residual_roundoffs` roundoffs of |S| + |base| w, where neither sum is
-// more than its bound over a leaf; divided by w that is a distance, and the planes are at right angles. The
-// sums are taken at points of a grid, and a quarter more for what lies between them.
+// counts when its residual is below 12 (the solvers' `residual_roundoffs`) roundoffs of |S| + |base| w, where
+// neither sum is more than its bound over a leaf; divided by w that is a distance, and the planes are at right
+// angles. The sums are taken at points of a grid, and a quarter more for what lies between them.
 double tangency_band(const Surface& surface, double radius);
 
 }  // namespace rondure

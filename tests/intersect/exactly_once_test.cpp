@@ -10,7 +10,6 @@
 #include "renderer/intersect/solve_leaf.h"
 #include "tests/catch.h"
 #include "tests/intersect/ray_classes.h"
-#include "tests/intersect/sphere_reference.h"
 #include "tests/intersect/verdict.h"
 #include "tests/soak.h"
 #include "tests/tallied.h"
@@ -21,18 +20,19 @@ namespace {
 
 constexpr auto classes = static_cast<std::size_t>(RayClass::count);
 constexpr long block = 240;     // rays of one seed
-constexpr long sample = 16384;  // one ray in so many is judged whatever its parity
-constexpr long rare = 64;       // classes whose rays often want the oracle come in one block in so many
+constexpr long sample = 16384;  // one ray in so many of a class is judged whatever its parity
 
 struct Tally {
   std::array<long, classes> rays{}, hits{}, in_band{}, judged{};
+  std::array<long, classes> undecided{};  // of an odd count, no sphere's, and the oracle proves nothing
   long wrong = 0, uncertified = 0;
   long exhausted = 0;  // rays on which a search gave up: all are judged
   std::string text;    // of some of what is wrong
 
   void merge(const Tally& o) {
     for (std::size_t k = 0; k < classes; ++k)
-      rays[k] += o.rays[k], hits[k] += o.hits[k], in_band[k] += o.in_band[k], judged[k] += o.judged[k];
+      rays[k] += o.rays[k], hits[k] += o.hits[k], in_band[k] += o.in_band[k], judged[k] += o.judged[k],
+          undecided[k] += o.undecided[k];
     wrong += o.wrong, uncertified += o.uncertified, exhausted += o.exhausted;
     if (text.size() < 4000) text += o.text;
   }
@@ -41,10 +41,6 @@ struct Tally {
 std::string text_of(const Ray& ray) {
   return fmt::format("o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", ray.origin.x,
                      ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z);
-}
-
-dvec3 scaled(const dvec3& v, int exponent) {
-  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
 bool same(const Hit& a, const Hit& b) {
@@ -76,8 +72,9 @@ bool ends_agree(const Tracer& tracer, const Ray& ray, const std::vector<Hit>& al
   return closest(std::nextafter(t, INFINITY), INFINITY, hit) && (!hit || hit.t > t);
 }
 
-void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long index,
-           std::mt19937_64& random, Tally& tally) {
+// `turn`: the how-manieth ray of its class this is, give or take those of other blocks.
+void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long turn, std::mt19937_64& random,
+           Tally& tally) {
   const AimedRay aimed = aim(model, which, random);
   const auto c = static_cast<std::size_t>(which);
   const std::size_t given_up = thread_counts().search.exhausted;
@@ -86,22 +83,17 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   tally.exhausted += gave_up;
   ++tally.rays[c];
   tally.hits[c] += static_cast<long>(hits.size());
-  const bool alike = (index % 8 != 0 || agree(tracer, aimed.ray, hits)) &&
-                     (index % 64 != 0 || ends_agree(tracer, aimed.ray, hits));
+  bool alike = (turn % 8 != 0 || agree(tracer, aimed.ray, hits)) &&
+               (turn % 64 != 0 || ends_agree(tracer, aimed.ray, hits));
   bool odd = aimed.parity >= 0 && hits.size() % 2 != static_cast<std::size_t>(aimed.parity);
   bool known = false;
-  if (model.sphere && which != RayClass::from_surface) {
-    const SphereReference exact =
-        // Scaled by a power of two: rounding a direction moves the far end of a ray from 10^8 radii away.
-        sphere_reference(aimed.ray.origin,
-                         scaled(aimed.ray.direction, -std::ilogb(largest(aimed.ray.direction))),
-                         model.surface.origin, model.radius);
-    known = std::fabs(exact.clearance) <= model.band;
-    odd = hits.size() !=
-          (exact.clearance < 0.0 ? static_cast<std::size_t>((exact.t[0] >= 0.0) + (exact.t[1] >= 0.0)) : 0);
+  const bool by_sphere = model.sphere && which != RayClass::from_surface;
+  if (by_sphere) {
+    const SphereVerdict exact = judge_by_sphere(model, aimed.ray, hits);
+    known = exact.in_band, odd = !exact.counted, alike = alike && exact.placed;
     tally.in_band[c] += odd && known;
   }
-  const bool judged = (odd && !known) || gave_up || index % sample == 0;
+  const bool judged = (odd && !known) || gave_up || turn % sample == 0;
   if (!judged && alike) return;
   const double band = model.band * model.radius;
   // A ray that is told to start on the surface is judged beyond its start alone.
@@ -111,40 +103,52 @@ void check(const ClosedModel& model, const Tracer& tracer, RayClass which, long 
   ++tally.judged[c];
   tally.in_band[c] += odd && !known && v.right && v.in_band;
   tally.uncertified += !v.certified && !v.in_band;
+  bool unexplained = odd && !known && v.right && !v.in_band;
   // Where every crossing is the oracle's, their number is only then of the wrong parity when an edge or a
-  // vertex is touched.
-  bool unexplained = odd && !known && v.right && v.certified && !v.in_band;
-  if (unexplained && touches_edge(model.surface, ray)) ++tally.in_band[c], unexplained = false;
+  // vertex is touched; where the oracle knows no better, the sphere does.
+  if (unexplained && !v.certified && !by_sphere) ++tally.undecided[c], unexplained = false;
+  if (unexplained && v.certified && touches_edge(model.surface, ray)) ++tally.in_band[c], unexplained = false;
   if (alike && v.right && !unexplained) return;
   ++tally.wrong;
   if (tally.text.size() > 2000) return;
-  tally.text += fmt::format("\n{}, {}, {} hits for parity {}{}{}: {}:{}", model.name, name_of(which),
-                            hits.size(), aimed.parity, alike ? "" : ", closest or occluded differ",
-                            unexplained ? ", unexplained" : "", text_of(aimed.ray), v.text);
+  tally.text +=
+      fmt::format("\n{}, {}, {} hits for parity {}{}{}: {}:{}", model.name, name_of(which), hits.size(),
+                  aimed.parity, alike ? "" : ", closest or occluded differ, or a hit is not the sphere's",
+                  unexplained ? ", unexplained" : "", text_of(aimed.ray), v.text);
   for (const Hit& h : hits)
     tally.text += fmt::format("\n  hit t {:.17g}, patch {} at ({:.17g}, {:.17g})", h.t, h.patch, h.u, h.v);
   tally.text += v.seen;
 }
 
-// Whether rays of a class are judged in microseconds nearly always: those that touch, by the analytic sphere
-// alone, if no singular corner makes them long to solve; those that start on a wall or run in a plane of
-// symmetry, by the oracle when there is no sphere.
-bool quick(const ClosedModel& model, RayClass which) {
-  if (which != RayClass::tangential && which != RayClass::from_surface && which != RayClass::axis_aligned &&
-      which != RayClass::edge_plane && which != RayClass::extreme_length)
-    return true;
-  return model.sphere && !model.singular && which != RayClass::from_surface;
+// In one block of how many rays of a class are met. Those that touch, that start on a wall or run in a plane
+// of symmetry often want the oracle where there is no sphere, and where a singular corner makes them long.
+long rarity(const ClosedModel& model, RayClass which) {
+  switch (which) {
+    case RayClass::from_surface:
+      return 8;
+    case RayClass::axis_aligned:
+      return model.sphere && !model.singular ? 1 : 64;
+    case RayClass::tangential:
+    case RayClass::edge_plane:
+    case RayClass::extreme_length:
+      return model.sphere && !model.singular ? 1 : 16;
+    default:
+      return 1;
+  }
 }
 
 Tally check_model(const ClosedModel& model, Solver solver, long rays, std::uint64_t seed) {
   const Tracer tracer({{model.surface, solver}});
   const auto blocks = static_cast<std::size_t>(std::max(1L, rays / block));
+  const long first = static_cast<long>(seed % 1000) * 137;  // lest the first ray of every model were a sample
   return tallied<Tally>(blocks, [&](std::size_t index, Tally& tally) {
-    const auto b = static_cast<long>(index);
+    const auto b = static_cast<long>(index), of_class = static_cast<long>(classes);
     std::mt19937_64 random(seed * 1'000'003u + index);
     for (long k = 0; k < block; ++k) {
-      const auto which = static_cast<RayClass>(k % static_cast<long>(classes));
-      if (b % rare == 0 || quick(model, which)) check(model, tracer, which, b * block + k, random, tally);
+      const auto which = static_cast<RayClass>(k % of_class);
+      const long rare = rarity(model, which);
+      if (b % rare == 0)
+        check(model, tracer, which, first + b / rare * (block / of_class) + k / of_class, random, tally);
     }
   });
 }
@@ -161,16 +165,31 @@ void require_clean(const Tally& tally, const std::string& what) {
   std::string table;
   long rays = 0, judged = 0;
   for (std::size_t k = 0; k < classes; ++k) {
-    table += fmt::format("\n  {:<17} {:>12} rays {:>12} hits {:>9} in band {:>6} judged",
+    table += fmt::format("\n  {:<17} {:>12} rays {:>12} hits {:>9} in band {:>6} judged {:>6} undecided",
                          name_of(static_cast<RayClass>(k)), tally.rays[k], tally.hits[k], tally.in_band[k],
-                         tally.judged[k]);
+                         tally.judged[k], tally.undecided[k]);
     rays += tally.rays[k], judged += tally.judged[k];
   }
   WARN(what << ": " << rays << " rays, " << judged << " judged by the oracle (" << tally.uncertified
             << " of them beyond its proofs), " << tally.exhausted << " with a search given up" << table);
   INFO(tally.text);
   CHECK(tally.wrong == 0);
-  for (std::size_t k = 0; k < classes; ++k) CHECK(tally.hits[k] > tally.rays[k] / 4);
+  // What is left to rounding, or beyond the oracle's patience, is little: twice what was seen and more.
+  long too_many = 0;
+  for (std::size_t k = 0; k < classes; ++k) {
+    const auto which = static_cast<RayClass>(k);
+    const double all = static_cast<double>(tally.rays[k]), least = 20.0;
+    const double band = which == RayClass::tangential       ? 0.12
+                        : which == RayClass::axis_aligned   ? 0.06
+                        : which == RayClass::extreme_length ? 0.03
+                        : which == RayClass::from_surface   ? 0.03
+                                                            : 0.002;
+    const double unknown = which == RayClass::axis_aligned ? 0.002 : 1e-5;
+    too_many += static_cast<double>(tally.in_band[k]) > band * all + least;
+    too_many += static_cast<double>(tally.undecided[k]) > unknown * all + least;
+    CHECK(tally.hits[k] > tally.rays[k] / 4);
+  }
+  CHECK(too_many == 0);
 }
 
 // The first model with this in its name; null where there is none.
@@ -189,8 +208,8 @@ TEST_CASE("Every closed surface is met exactly once a wall", "[once]") {
     double rays;  // of all the models together
   };
   const Share share =
-      GENERATE(Share{Solver::newton, "newton", 6e6}, Share{Solver::quadric, "quadric", 6e6},
-               Share{Solver::radial, "radial", 1.2e6}, Share{Solver::clipping, "clipping", 1.2e6});
+      GENERATE(Share{Solver::newton, "newton", 6.2e6}, Share{Solver::quadric, "quadric", 6.2e6},
+               Share{Solver::radial, "radial", 1.25e6}, Share{Solver::clipping, "clipping", 1.25e6});
   Tally tally;
   std::uint64_t seed = first_seed();
   const auto& models = closed_models();

@@ -5,19 +5,50 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 #include "renderer/intersect/local_ray.h"
+#include "tests/intersect/sphere_reference.h"
 
 namespace rondure {
+namespace {
+
+double rounding_of(double t, double unit) { return 0x1p-50 * (std::fabs(t) + unit); }
+
+}  // namespace
+
+SphereVerdict judge_by_sphere(const ClosedModel& model, const Ray& ray, const std::vector<Hit>& hits) {
+  // Scaled by a power of two: rounding a direction moves the far end of a ray from 10^8 radii away.
+  const int exponent = std::ilogb(largest(ray.direction));
+  dvec3 direction;
+  for (int k = 0; k < 3; ++k) direction[k] = std::ldexp(ray.direction[k], -exponent);
+  const SphereReference exact = sphere_reference(ray.origin, direction, model.surface.origin, model.radius);
+  std::vector<double> expected;
+  if (exact.clearance < 0.0)
+    std::copy_if(std::begin(exact.t), std::end(exact.t), std::back_inserter(expected),
+                 [](double t) { return t >= 0.0; });
+  SphereVerdict out;
+  out.in_band = std::fabs(exact.clearance) <= model.band;
+  out.counted = hits.size() == expected.size();
+  if (out.in_band || !out.counted) return out;
+  const double unit = model.radius / glm::length(direction);
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const double t = std::ldexp(hits[k].t, exponent), claimed = std::ldexp(hits[k].t_error, exponent);
+    const double allowed = 2.0 * model.band * unit / exact.cosine + claimed + rounding_of(t, unit);
+    out.placed = out.placed && std::fabs(t - expected[k]) <= allowed;
+  }
+  return out;
+}
 
 Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hits, double radius,
               double band, double doubt) {
   const double longest = largest(ray.direction);
   const double speed = longest * glm::length(ray.direction / longest), unit = radius / speed;
-  const auto rounding = [&](double t) { return 0x1p-50 * (std::fabs(t) + unit); };
+  const auto rounding = [&](double t) { return rounding_of(t, unit); };
   const oracle::Meeting meeting = oracle::meet(surface, ray);
-  // Neighbours' roots at a seam differ by the ray's distance from it, which rounding makes, over the cosine.
-  const std::vector<oracle::Crossing> found = oracle::crossings(meeting, 0x1p-44 * unit);
+  // Neighbours' roots at a seam differ by the ray's distance from it, and by the two nets', both of which
+  // rounding makes, over the cosine.
+  const std::vector<oracle::Crossing> found = oracle::crossings(meeting, 0x1p-44 * unit, 0x1p-50 * unit);
 
   Verdict out;
   out.certified = !meeting.exhausted;

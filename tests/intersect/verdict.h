@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/intersect/tracer.h"
+#include "tests/intersect/closed_models.h"
 #include "tests/oracle/oracle.h"
 
 namespace rondure {
@@ -16,6 +17,16 @@ struct Verdict {
   std::string text;  // what is wrong
   std::string seen;  // every root and graze of the oracle's
 };
+
+// What the analytic sphere says of a ray's hits with a model that is one.
+struct SphereVerdict {
+  bool in_band = false;  // the line is as near to touching as leaves the count to rounding
+  bool counted = true;   // there are as many hits as the sphere has
+  bool placed = true;    // and, outside of the band, each at its t
+};
+// A root lies where the surface is within the band of the ray, and so moves along the ray by no more than
+// twice the band over the cosine of incidence; beyond that t may err by what the hit claims.
+SphereVerdict judge_by_sphere(const ClosedModel& model, const Ray& ray, const std::vector<Hit>& hits);
 
 // Each certain crossing of a closed surface must be told exactly once, with t within its claimed error, and
 // nothing else. `band`: distance from tangency in scene units within which either answer is right. Crossings

@@ -1,14 +1,20 @@
 #include <algorithm>
+#include <cmath>
 
 #include "tests/oracle/oracle.h"
 
 namespace rondure::oracle {
 
-std::vector<Crossing> crossings(const Meeting& meeting, double resolution) {
+std::vector<Crossing> crossings(const Meeting& meeting, double resolution, double across) {
   std::vector<Crossing> out;
   for (const Root& root : meeting.roots) {
     // Two simple roots of one patch are two crossings however near.
-    const bool joins = !out.empty() && root.t - out.back().high <= resolution &&
+    const auto near = [&](const Crossing& c) {
+      // Near touching a root moves by the square root of rounding, and no more.
+      const double apart = root.t - c.high, cosine = std::fmax(std::fmin(root.cosine, c.cosine), 0x1p-25);
+      return apart <= resolution || (root.way == c.way && apart * cosine <= across);
+    };
+    const bool joins = !out.empty() && near(out.back()) &&
                        std::find(out.back().patches.begin(), out.back().patches.end(), root.patch) ==
                            out.back().patches.end();
     if (!joins) {

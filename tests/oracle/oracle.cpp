@@ -24,6 +24,25 @@ struct Piece {
   Real2 place(const Real& a, const Real& b) const { return origin + a * along_a + b * along_b; }
 };
 
+// All that a polynomial may be on its piece, by its coefficients.
+struct Span {
+  Real low, high;
+
+  Span(const Real& a, const Real& b) : low(a), high(b) {}
+  Span(const PolynomialPair& f, std::size_t which) : low(f.c[0][which]), high(low) {
+    for (const Real2& x : f.c) low = std::min(low, x[which]), high = std::max(high, x[which]);
+  }
+  // By more than 10^-30 of itself, where rounding is 10^-48.
+  bool keeps_sign() const { return low > ldexp(high, -100) || high < ldexp(low, -100); }
+
+  friend Span operator+(const Span& a, const Span& b) { return {a.low + b.low, a.high + b.high}; }
+  friend Span operator-(const Span& a, const Span& b) { return {a.low - b.high, a.high - b.low}; }
+  friend Span operator*(const Span& a, const Span& b) {
+    const Real p[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
+  }
+};
+
 class Search {
  public:
   Search(const Net& net, int patch, const Line& line, double graze, double margin, Meeting& out)
@@ -187,6 +206,7 @@ class Search {
     Root root;
     root.patch = patch_, root.u = rounded(p[0]), root.v = rounded(p[1]), root.outside = rounded(outside(p));
     root.t = rounded(along(s.point));
+    for (int k = 0; k < 3; ++k) root.point[k] = rounded(s.point[static_cast<std::size_t>(k)]);
     const Real3 n = cross(s.du, s.dv);
     const Real length = sqrt(dot(n, n)), speed = sqrt(dot(s.du, s.du) * dot(s.dv, s.dv));
     if (length > 0 && length > ldexp(speed, -100))
@@ -224,33 +244,47 @@ class Search {
     out_.roots.push_back(root);
   }
 
-  // So small is the piece of a cluster that one point tells of all: f turns by 10^-19 of itself.
+  // Whether there are two roots at most on the piece, or none and all but two: on the zeros of one
+  // combination f, which cross the piece in one arc because a derivative keeps its sign, the other is bent
+  // one way only, because the rate at which J changes along them (turning.h) keeps its sign.
   bool turns_once(const Piece& piece) const {
     const Real middle = triangle() ? Real(1) / 3 : Real(0.5);
+    Real2 p{middle, middle};
     Jet s = jet(piece.f, middle, middle);
-    rotate(s);
-    const Turn at = turn(s);
-    const Real gradient = std::max(size_of(s.da), size_of(s.db));
-    const Real bend = std::max({size_of(s.daa), size_of(s.dab), size_of(s.dbb)});
-    return at.slope2 > 0 && bend < ldexp(gradient, -20) && abs(at.rate) > ldexp(at.scale, -20);
+    if (find_turn(piece, p)) s = jet(piece.f, p[0], p[1]);
+    const Real angle = rotation(s), c = cos(angle), d = sin(angle);
+    PolynomialPair f = piece.f;
+    for (Real2& x : f.c) x = {c * x[0] + d * x[1], c * x[1] - d * x[0]};
+    const PolynomialPair da = f.derivative(0), db = f.derivative(1), daa = da.derivative(0),
+                         dab = da.derivative(1), dbb = db.derivative(1);
+    const Span fa(da, 0), fb(db, 0), ga(da, 1), gb(db, 1);
+    if (!fa.keeps_sign() && !fb.keeps_sign()) return false;
+    const Span faa(daa, 0), fab(dab, 0), fbb(dbb, 0), gaa(daa, 1), gab(dab, 1), gbb(dbb, 1);
+    const Span ja = faa * gb + fa * gab - fab * ga - fb * gaa, jb = fab * gb + fa * gbb - fbb * ga - fb * gab;
+    return (fb * ja - fa * jb).keeps_sign();
   }
 
-  void look_for_graze(const Piece& piece, Real2 p) {
-    Jet s;
+  // Newton's method for the place where f, of the gradient that there is, vanishes and the other turns.
+  static bool find_turn(const Piece& piece, Real2& p) {
     for (int k = 0; k < 8; ++k) {
-      s = jet(piece.f, p[0], p[1]);
+      Jet s = jet(piece.f, p[0], p[1]);
       rotate(s);
       const Real j = s.da[0] * s.db[1] - s.db[0] * s.da[1];
       const Real ja = s.daa[0] * s.db[1] + s.da[0] * s.dab[1] - s.dab[0] * s.da[1] - s.db[0] * s.daa[1],
                  jb = s.dab[0] * s.db[1] + s.da[0] * s.dbb[1] - s.dbb[0] * s.da[1] - s.db[0] * s.dab[1];
       const Real d = s.da[0] * jb - s.db[0] * ja;
-      if (d == 0) return;
+      if (d == 0) return false;
       const Real2 step{(jb * s.value[0] - s.db[0] * j) / d, (s.da[0] * j - ja * s.value[0]) / d};
       p = p - step;
-      if (size_of(p) > 1000) return;
+      if (size_of(p) > 1000) return false;
       if (size_of(step) < 1e-20) break;
     }
-    s = jet(piece.f, p[0], p[1]);
+    return true;
+  }
+
+  void look_for_graze(const Piece& piece, Real2 p) {
+    if (!find_turn(piece, p)) return;
+    Jet s = jet(piece.f, p[0], p[1]);
     rotate(s);
     const Real2 at = piece.place(p[0], p[1]);
     if (outside(at) > 1e-6) return;

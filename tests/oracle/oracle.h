@@ -20,6 +20,7 @@ struct Root {
   int patch = 0;
   double u = 0.0, v = 0.0;
   double t = 0.0;
+  dvec3 point{0.0};      // in the surface's frame
   double outside = 0.0;  // by how much (u, v) is outside of the patch's domain; negative inside
   double cosine = 0.0;   // |normal . direction| of unit vectors; 0 where there is no normal
   int multiplicity = 0;  // 1; 2: two within 10^-19 of each other, or touching; 0: not known (singular points)
@@ -58,7 +59,9 @@ struct Crossing {
   std::vector<int> patches;
 };
 
-// `resolution`: how far apart roots of different patches count as one, in t.
-std::vector<Crossing> crossings(const Meeting& meeting, double resolution);
+// `resolution`: how far apart roots of different patches count as one, in t; `across`: how far the patches may
+// be apart at right angles, over the speed of t, which along the ray is that over the cosine where both are
+// crossed the same way.
+std::vector<Crossing> crossings(const Meeting& meeting, double resolution, double across = 0.0);
 
 }  // namespace rondure::oracle
