@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -73,8 +74,10 @@ dmat4 world_to_camera(const Camera& camera) {
 
 dmat4 world_to_ndc(const Camera& camera, double aspect) {
   dmat4 projection(1.0);
-  projection[0][0] = 2.0 / (camera.extent * aspect);
-  projection[1][1] = 2.0 / camera.extent;
+  // An infinity would make the product's zeros no numbers.
+  constexpr double most = std::numeric_limits<float>::max();
+  projection[0][0] = std::fmin(2.0 / (camera.extent * aspect), most);
+  projection[1][1] = std::fmin(2.0 / camera.extent, most);
   projection[2][2] = -1.0;
   if (camera.projection == Projection::perspective) {
     // Divides by the distance along the view; z becomes 1 - 1 / distance.

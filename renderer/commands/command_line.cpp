@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "renderer/api/version.h"
@@ -36,6 +38,25 @@ std::pair<CLI::App*, Options*> add(CLI::App& program, CommandLine& line, const c
 // For options whose empty value CLI11 takes for none.
 CLI::Validator not_empty(const char* complaint) {
   return CLI::Validator([complaint](const std::string& value) { return value.empty() ? complaint : ""; }, "");
+}
+
+// Names separated by commas, none of them empty.
+CLI::Validator are_names() {
+  return CLI::Validator(
+      [](const std::string& value) {
+        return ("," + value + ",").find(",,") != std::string::npos ? "has an empty name" : "";
+      },
+      "");
+}
+
+// The names of every time that the option stands.
+std::vector<std::string> split_names(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists) {
+    std::istringstream text(list);
+    for (std::string name; std::getline(text, name, ',');) names.push_back(name);
+  }
+  return names;
 }
 
 // Whole numbers. Of larger ones than 64 bits hold CLI11 takes the largest that they do.
@@ -115,10 +136,11 @@ void add_sampling_options(CLI::App& command, SceneOverrides& overrides) {
       ->type_name("NAME");
   command
       .add_option_function<std::vector<std::string>>(
-          "--layers", [&overrides](const std::vector<std::string>& names) { overrides.layers = names; },
+          "--layers",
+          [&overrides](const std::vector<std::string>& lists) { overrides.layers = split_names(lists); },
           "More layers of the film, with the scene's parameters where it has them; see rondure list")
       ->type_name("NAME,...")
-      ->delimiter(',')
+      ->check(are_names())
       ->allow_extra_args(false);
 }
 
@@ -220,11 +242,15 @@ void add_study(CLI::App& program, CommandLine& line) {
       ->type_name("STUDY")
       ->required();
   command
-      ->add_option("--families", options->families,
-                   "Families, separated by commas; all of the study's by default. A name that is none is "
-                   "answered by all that are")
+      ->add_option_function<std::vector<std::string>>(
+          "--families",
+          [options = options](const std::vector<std::string>& lists) {
+            options->families = split_names(lists);
+          },
+          "Families, separated by commas; all of the study's by default. A name that is none is "
+          "answered by all that are")
       ->type_name("NAME,...")
-      ->delimiter(',')
+      ->check(are_names())
       ->allow_extra_args(false);
   command
       ->add_option("--scene", options->scene,
@@ -304,6 +330,17 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   return unexpected_option(extras[0], names, names, remedy);
 }
 
+// CLI11 takes the next argument for the value that is missing behind "=".
+void refuse_empty_values(int argc, char** argv) {
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view text = argv[k];
+    if (text == "--") return;
+    if (text.starts_with("--") && text.find('=') == text.size() - 1)
+      throw std::runtime_error(
+          fmt::format("{}: has no value; see rondure --help", text.substr(0, text.size() - 1)));
+  }
+}
+
 }  // namespace
 
 CommandLine read_command_line(int argc, char** argv) {
@@ -323,6 +360,7 @@ CommandLine read_command_line(int argc, char** argv) {
   add_validate(program, line);
   add_list(program, line);
   add_describe(program, line);
+  refuse_empty_values(argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "renderer/bezier/rational.h"
@@ -15,8 +16,10 @@
 namespace rondure {
 namespace {
 
+// "nan", whatever its sign, is no number: of a curvature where there is none.
+void append(std::string& out, double x) { out += std::isnan(x) ? ",nan" : fmt::format(",{:.17g}", x); }
 void append(std::string& out, const dvec3& p) {
-  fmt::format_to(std::back_inserter(out), ",{:.17g},{:.17g},{:.17g}", p.x, p.y, p.z);
+  for (int k = 0; k < 3; ++k) append(out, p[k]);
 }
 
 }  // namespace
@@ -54,8 +57,9 @@ void run_eval(const Registry& registry, const EvalCommand& options) {
     append(line, surface.origin + jet.point);
     for (const dvec3& d : {jet.du, jet.dv, jet.duu, jet.duv, jet.dvv}) append(line, d);
     append(line, unit_normal(net, u, v));
-    fmt::format_to(std::back_inserter(line), ",{:.17g},{:.17g}\n", bend.gaussian, bend.mean);
-    output.write(line);
+    append(line, bend.gaussian);
+    append(line, bend.mean);
+    output.write(line + "\n");
   }
   output.finish();
 }

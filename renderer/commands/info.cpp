@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "renderer/api/utf8.h"
 #include "renderer/bezier/bounds.h"
 #include "renderer/bezier/mass_properties.h"
 #include "renderer/commands/commands.h"
@@ -136,7 +137,7 @@ std::string mass_text(const Json& object) {
 std::string as_text(const Json& info) {
   std::string out = fmt::format("{}\n", info["scene"].get<std::string>());
   for (const Json& object : info["objects"]) {
-    out += fmt::format("  {}: {}, {}, solver {}\n", object["name"].get<std::string>(),
+    out += fmt::format("  {}: {}, {}, solver {}\n", printable(object["name"].get<std::string>(), 1000),
                        object["type"].get<std::string>(), object["closed"].get<bool>() ? "closed" : "open",
                        object["solver"].get<std::string>());
     if (object.contains("degrees")) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/api/utf8.h"
+#include "renderer/scene/coincident_patches.h"
 #include "renderer/scene/scene.h"
 
 namespace rondure {
@@ -19,7 +20,13 @@ inline std::vector<std::string> scene_warnings(const Scene& scene) {
     const Surface& surface = object.traced.surface;
     for (const std::string& text : surface.warnings)
       warnings.push_back(fmt::format("{}:{}:{}: warning: {}: {}", scene.path, object.where.line,
-                                     object.where.column, printable(object.name), text));
+                                     object.where.column, printable(object.name), printable(text, 500)));
+    if (const auto pair = coincident_patches(surface.patches))
+      warnings.push_back(fmt::format(
+          "{}:{}:{}: warning: {}: patches {} and {} lie on each other; of one object's walls in one place "
+          "none comes first: bodies that share a wall want an object each",
+          scene.path, object.where.line, object.where.column, printable(object.name), pair->first,
+          pair->second));
     const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
     if (surface.closed || surface.ellipsoid || !std::holds_alternative<Dielectric>(material.scattering))
       continue;

@@ -99,6 +99,8 @@ class Search {
   static constexpr int deepest = 60;     // 2^-30 in each direction
   static constexpr int first_zeros = 8;  // pieces of a 16th, on which zeros are first looked for
   static constexpr std::size_t most_singular = 16;
+  static constexpr double most_suspects = 6000.0;
+  static constexpr double cuts_of_a_zero = 16.0;  // what looking for one takes of the time of a large piece's
 
   // A zero inside, and a radius within which there is no other.
   struct Known {
@@ -109,6 +111,7 @@ class Search {
   const Surface& surface_;
   long budget_;
   double work_ = 0.0;
+  double excess_ = 0.0;  // of a cut of the patch at hand, over one of a small net
   Regularity out_;
   int patch_ = 0;
   double noise_ = 0.0;
@@ -157,7 +160,8 @@ class Search {
     std::vector<dvec2> suspects;
     // A cut takes the power 3/2 of the number of coefficients; below some 250 of them other things do.
     const double size = static_cast<double>(left.front().normal.coefficients.size());
-    const double work = 1.0 + size * std::sqrt(size) / 4096.0;
+    excess_ = size * std::sqrt(size) / 4096.0;
+    const double work = 1.0 + excess_;
     while (!left.empty()) {
       const Piece<N, W> piece = std::move(left.back());
       left.pop_back();
@@ -174,7 +178,7 @@ class Search {
         unproved_ = true;
         if (piece.depth >= deepest)
           suspects.insert(suspects.end(), piece.corners.begin(), piece.corners.end());
-        if (suspects.size() > 6000 || piece.depth < deepest) break;
+        if (static_cast<double>(suspects.size()) > most_suspects / work || piece.depth < deepest) break;
         continue;
       }
       auto parts = cut(piece);
@@ -196,6 +200,7 @@ class Search {
     if (within_known(piece)) return true;
     dvec2 middle(0.0);
     for (const dvec2& c : piece.corners) middle += c / static_cast<double>(piece.corners.size());
+    work_ += cuts_of_a_zero * excess_;
     const auto zero = finder_->from(middle);
     if (!zero || glm::distance(*zero, middle) > 8.0 * glm::distance(piece.corners[0], piece.corners[1]))
       return false;

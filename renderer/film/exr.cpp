@@ -32,6 +32,12 @@ constexpr std::array names = {
     "N.X",  "N.Y",  "N.Z",        "P.X",        "P.Y",       "P.Z",      "Patch.id", "Patch.surface",
     "UV.U", "UV.V", "Variance.R", "Variance.G", "Variance.B"};
 
+// What a float holds of a number.
+float stored(double x) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -most, most));
+}
+
 std::array<double, names.size()> values_at(const Film& film, int x, int y) {
   const FilmSample m = film.mean(x, y);
   // Of radiances that a float holds the variance may be more.
@@ -52,7 +58,7 @@ std::vector<std::string> channels_of(const Film& film) {
 Imath::M44f matrix(const dmat4& m) {
   Imath::M44f result;
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) result[i][j] = static_cast<float>(m[i][j]);
+    for (int j = 0; j < 4; ++j) result[i][j] = stored(m[i][j]);
   }
   return result;
 }
@@ -113,7 +119,7 @@ void write_exr(const std::string& path, const Film& film, const ExrHeader& info)
           const auto column = static_cast<std::size_t>(x - w.x0);
           for (std::size_t c = 0; c < channels.size(); ++c) {
             line[c * width + column] = c < values.size()
-                                           ? static_cast<float>(values[c])
+                                           ? stored(values[c])
                                            : film.layers[c - values.size()].values[film.index(x, y)];
           }
         }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -64,10 +65,14 @@ void write_resume_state(const std::string& path, const std::string& key, const F
 bool read_resume_state(const std::string& path, const std::string& key, Film& film) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return false;
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw std::runtime_error(fmt::format("{}: cannot hold samples: not a regular file", path));
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
+  if (!file)  // not to be written over: it may hold a long render
+    throw std::runtime_error(fmt::format("{}: cannot read the samples to resume from: {}", path,
+                                         std::generic_category().message(errno)));
   char mark[sizeof magic];
   Header header;
   file.read(mark, sizeof mark);

@@ -13,7 +13,7 @@ namespace rondure {
 // None for zero, NaN and infinite vectors. Scaled first, so that no square underflows.
 inline std::optional<dvec3> direction_of(const dvec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0.0) || !std::isfinite(v.x + v.y + v.z)) return {};
+  if (!(largest > 0.0) || !std::isfinite(largest) || std::isnan(v.x + v.y + v.z)) return {};
   return glm::normalize(v / largest);
 }
 

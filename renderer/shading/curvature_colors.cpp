@@ -19,10 +19,13 @@ dvec3 curvature_color(const CurvatureColors& colors, const Net& net, double u, d
   const Curvature at = curvature(net, u, v);
   const double value = colors.of == CurvatureColors::Kind::gaussian ? at.gaussian : at.mean;
   if (std::isnan(value)) return otherwise;
-  // Clamped first: an infinite curvature, and a range as wide as doubles are, must not make 0 / 0 or inf /
-  // inf.
-  const double inside = std::clamp(value, colors.low, colors.high);
-  return diverging_color((0.5 * inside - 0.5 * colors.low) / (0.5 * colors.high - 0.5 * colors.low));
+  // Clamped first: an infinite curvature, and a range as wide as doubles are, or as narrow, must not make
+  // inf / inf or 0 / 0.
+  const double inside = std::clamp(value, colors.low, colors.high), width = colors.high - colors.low;
+  const double part = std::isfinite(width)
+                          ? (inside - colors.low) / width
+                          : (0.5 * inside - 0.5 * colors.low) / (0.5 * colors.high - 0.5 * colors.low);
+  return diverging_color(part);
 }
 
 }  // namespace rondure

@@ -12,7 +12,9 @@ namespace {
 
 // Rotation about z, x or y by degrees, right-handed.
 dmat3 rotation(int axis, double degrees) {
-  const double a = degrees * std::numbers::pi / 180.0;
+  // Whole turns of many are taken out exactly, for as many would leave the range of a double.
+  const double a =
+      (std::fabs(degrees) > 360.0 ? std::remainder(degrees, 360.0) : degrees) * std::numbers::pi / 180.0;
   const double c = std::cos(a), s = std::sin(a);
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   dmat3 m(1.0);

@@ -52,6 +52,13 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
        "scene.json: layers[0]: unknown layer \"nonesuch\"; known: \"certificate\", \"curvature\", "
        "\"highlight_lines\", \"isophotes\", \"jacobian\", \"normal_error\", \"reflection_lines\", "
        "\"residual\", \"work\" (set on the command line)"},
+      {{"render", "a", "--layers=", "-o", "b.exr"}, "--layers: has no value; see rondure --help"},
+      {{"render", "a", "--layers", ",", "-o", "b.exr"},
+       "--layers: has an empty name; see rondure render --help"},
+      {{"render", "a", "--layers", "work,,residual"},
+       "--layers: has an empty name; see rondure render --help"},
+      {{"study", "precision", "--families", "cube,"},
+       "--families: has an empty name; see rondure study --help"},
       {{"study", "corner-normals", "--scene", ""}, "--scene: names no file; see rondure study --help"},
       {{"trace", "a", "--rays", ""}, "--rays: names no file; - is standard input; see rondure trace --help"},
       {{"render", "a", "--spp", ""}, "--spp: has no value; see rondure render --help"},

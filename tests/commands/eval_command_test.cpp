@@ -80,6 +80,24 @@ TEST_CASE("eval gives points, derivatives, normals and curvatures of the sphere"
   CHECK(worst.failures() == 0);
 }
 
+// Weights that are next to nothing are so alike on the whole patch: they are taken to size.
+TEST_CASE("eval tells of no number only where there is none", "[command]") {
+  const std::string folder = folder_with("eval_nan", R"({ "objects": [
+    { "type": "bezier", "patches": [ { "kind": "tensor", "degree": [1, 1],
+      "net": [ [ [0, 0, 0, 5e-324], [0, 5e-324, 0, 5e-324] ],
+        [ [5e-324, 0, 0, 5e-324], [5e-324, 5e-324, 0, 5e-324] ] ] } ] },
+    { "type": "bezier", "patches": [ { "kind": "tensor", "degree": [2, 1],
+      "net": [ [ [1, 0, 0, 1], [1, 1, 0, 1] ], [ [-1, 0, 0, 1], [-1, 1, 0, 1] ], [ [1, 0, 0, 1], [1, 1, 0, 1] ] ] } ] } ] })");
+  const ProcessResult result = eval_at(folder, "0,0,0.5,0.25\n1,0,0.5,0.25\n");
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const std::vector<std::string> lines = lines_of(result.out);
+  REQUIRE(lines.size() == 3);
+  CHECK(lines[1] == "0,0,0.5,0.25,0.5,0.25,0,1,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,1,0,0");
+  CHECK(lines[2].ends_with(",nan,nan"));  // the edge of a fold
+  CHECK(lines[2].find("-nan") == std::string::npos);
+}
+
 TEST_CASE("eval points at what is wrong with a table", "[command]") {
   const std::string folder = folder_with("eval_errors", R"({ "objects": [
     { "type": "sphere_tiling", "topology": "cube" }, { "type": "sphere" },

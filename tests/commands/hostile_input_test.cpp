@@ -238,6 +238,11 @@ TEST_CASE("samples are resumed from regular files alone", "[commands][hostile]")
   REQUIRE(mkfifo((folder + "/o.exr.state").c_str(), 0600) == 0);
   check_refused(folder, {"render", "scene.json", "--resolution", "8x8", "--resume", "--quiet", "-o", "o.exr"},
                 "o.exr.state: cannot hold samples: not a regular file");
+  // One that is there and cannot be read, be it for want of rights, is not written over.
+  std::filesystem::remove(folder + "/o.exr.state");
+  std::filesystem::create_symlink("o.exr.state", folder + "/o.exr.state");
+  check_refused(folder, {"render", "scene.json", "--resolution", "8x8", "--resume", "--quiet", "-o", "o.exr"},
+                "o.exr.state: cannot read the samples to resume from: Too many levels of symbolic links");
 }
 
 // A pipe whose reader is gone before anything is written.

@@ -133,6 +133,26 @@ TEST_CASE("a variance beyond a float is written as the largest", "[film]") {
   CHECK(channels.at("Variance.G")[0] < 1.0f);
 }
 
+TEST_CASE("a place beyond a float is written as the largest", "[film]") {
+  const std::string path = fresh_folder("exr_far") + "/a.exr";
+  Film film = make_film();
+  film.geometry[0].point = {1e50, -1e50, 1.0}, film.geometry[0].depth = 1e50;
+  ExrHeader header = make_header();
+  header.camera.origin = {1e60, -4.0, 1.0};
+  write_exr(path, film, header);
+  Imf::InputFile file(path.c_str());
+  auto channels = read_channels(file);
+  constexpr float most = std::numeric_limits<float>::max();
+  CHECK(channels.at("P.X")[0] == most);
+  CHECK(channels.at("P.Y")[0] == -most);
+  CHECK(channels.at("Depth.Z")[0] == most);
+  long infinite = 0;
+  for (const Imath::M44f& m : {Imf::worldToCamera(file.header()), Imf::worldToNDC(file.header())})
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) infinite += !std::isfinite(m[i][j]);
+  CHECK(infinite == 0);
+}
+
 TEST_CASE("the EXR's header tells what was rendered", "[film]") {
   const std::string path = fresh_folder("exr_header") + "/a.exr";
   write_exr(path, make_film(), make_header());

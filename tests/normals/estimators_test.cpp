@@ -1,11 +1,13 @@
 // Normal estimators: what they share, what they are meant to get wrong, and what they do to light.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "renderer/bezier/angle.h"
 #include "renderer/bezier/rational.h"
+#include "renderer/normals/direction.h"
 #include "renderer/normals/normal_field.h"
 #include "renderer/normals/normal_germ.h"
 #include "renderer/study/corner_normals.h"
@@ -20,6 +22,17 @@ namespace {
 
 Surface built(const std::string& name) {
   return surface_of(subjects_named({name}).at(0), StagedScene::builtins());
+}
+
+TEST_CASE("a vector has a direction however long it is", "[normals]") {
+  for (const double length : {5e-324, 1e-200, 1e200, 1.7e308}) {
+    const auto direction = direction_of(dvec3(length, length, 0.0));
+    REQUIRE(direction);
+    CHECK(glm::distance(*direction, dvec3(std::sqrt(0.5), std::sqrt(0.5), 0.0)) < 1e-15);
+  }
+  CHECK_FALSE(direction_of(dvec3(0.0)));
+  CHECK_FALSE(direction_of(dvec3(INFINITY, 0.0, 0.0)));
+  CHECK_FALSE(direction_of(dvec3(1.0, NAN, 0.0)));
 }
 
 TEST_CASE("away from singular points all estimators agree", "[normals]") {

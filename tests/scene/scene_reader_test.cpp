@@ -43,6 +43,19 @@ TEST_CASE("a scene of one object gets everything else by default", "[scene]") {
   CHECK(scene.objects[0].traced.solver == Solver::newton);
 }
 
+// There is a camera though doubles cannot tell it from its target: rays may be traced all the same.
+TEST_CASE("the default camera looks the same way however far the scene is", "[scene]") {
+  const dvec3 usual = read(R"({ "objects": [ { "type": "sphere_tiling" } ] })").camera.forward;
+  for (const char* place :
+       {R"("center": [1e30, 1e30, 0])", R"("center": [1, 1, 1], "radius": 1e-20)",
+        R"("center": [0, 0, 1e30])", R"("center": [1e90, -1e90, 1e90], "radius": 1e-90)"}) {
+    const Camera camera =
+        read(fmt::format(R"({{ "objects": [ {{ "type": "sphere_tiling", {} }} ] }})", place)).camera;
+    CAPTURE(place);
+    CHECK(glm::distance(camera.forward, usual) < 1e-12);
+  }
+}
+
 TEST_CASE("the default camera holds every object, wherever and however large", "[scene]") {
   for (const char* film : {"[640, 480]", "[100, 400]"}) {
     for (const char* object :

@@ -73,10 +73,13 @@ TEST_CASE("a saddle has the colours of its curvature", "[shading]") {
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("a plane is grey, and a range as wide as doubles are still has a middle", "[shading]") {
+TEST_CASE("a plane is grey, and a range as wide or narrow as doubles are still has its colours",
+          "[shading]") {
   const Net plane = bilinear({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0});
   CHECK(curvature_color({Kind::mean, -1.0, 1.0}, plane, 0.3, 0.6, dvec3(0.0)) == grey);
   CHECK(curvature_color({Kind::gaussian, -1.7e308, 1.7e308}, plane, 0.3, 0.6, dvec3(0.0)) == grey);
+  CHECK(curvature_color({Kind::mean, -5e-324, 5e-324}, plane, 0.3, 0.6, dvec3(0.0)) == grey);
+  CHECK(curvature_color({Kind::mean, 0.0, 5e-324}, plane, 0.3, 0.6, dvec3(0.0)) == diverging_color(0.0));
 }
 
 TEST_CASE("where a patch has no curvature, its own albedo stays", "[shading]") {

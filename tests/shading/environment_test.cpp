@@ -132,6 +132,10 @@ TEST_CASE("an environment file reaches the world, scaled and turned", "[shading]
   CHECK(plain.world.background({0, 1, 0}).x == 0.0);
   CHECK(turned.world.background({0, 1, 0}).x == Approx(3.0));  // about z, right-handed: x goes to y
   CHECK(tipped.world.background({0, 0, 1}).x == Approx(3.0));  // about y by -90: x goes to z
+  // Whole turns count for nothing: the double 1e308 is -64 (mod 360), by integers.
+  const StagedScene many = stage("1e308"), rest = stage("-64");
+  for (const dvec3& d : {dvec3(1, 0, 0), dvec3(0.6, 0.8, 0), dvec3(0.44, -0.9, 0)})
+    CHECK(many.world.background(d) == rest.world.background(d));
   WorstCase worst;
   for (int i = 0; i < 2000; ++i) {
     Sampler sampler(2, i, 0, 0);
