@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "renderer/bezier/quotient.h"
 #include "renderer/sampling/warps.h"
 
 namespace rondure {
@@ -76,8 +77,8 @@ dmat4 world_to_ndc(const Camera& camera, double aspect) {
   dmat4 projection(1.0);
   // An infinity would make the product's zeros no numbers.
   constexpr double most = std::numeric_limits<float>::max();
-  projection[0][0] = std::fmin(2.0 / (camera.extent * aspect), most);
-  projection[1][1] = std::fmin(2.0 / camera.extent, most);
+  projection[0][0] = std::fmin(quotient(2.0, camera.extent * aspect), most);
+  projection[1][1] = std::fmin(quotient(2.0, camera.extent), most);
   projection[2][2] = -1.0;
   if (camera.projection == Projection::perspective) {
     // Divides by the distance along the view; z becomes 1 - 1 / distance.

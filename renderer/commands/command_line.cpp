@@ -335,7 +335,8 @@ void refuse_empty_values(int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     const std::string_view text = argv[k];
     if (text == "--") return;
-    if (text.starts_with("--") && text.find('=') == text.size() - 1)
+    const bool is_short = text.size() == 3 && text[0] == '-';
+    if ((text.starts_with("--") || is_short) && text.find('=') == text.size() - 1)
       throw std::runtime_error(
           fmt::format("{}: has no value; see rondure --help", text.substr(0, text.size() - 1)));
   }

@@ -79,7 +79,8 @@ void render_film(Film& film, const Scene& scene, const World& world, RenderOptio
                  const std::string& key, const RenderCommand& options) {
   const auto target = static_cast<std::uint32_t>(scene.sampling.spp);
   const std::string state = resume_path(options.output);
-  if (options.resume && read_resume_state(state, key, film) && film.samples > target) {
+  if (options.resume && !read_resume_state(state, key, film)) check_writable(state);
+  if (film.samples > target) {
     throw std::runtime_error(
         fmt::format("{}: already holds {} samples a pixel, more than the {} asked for; raise --spp", state,
                     film.samples, target));

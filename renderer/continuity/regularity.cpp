@@ -100,7 +100,7 @@ class Search {
   static constexpr int first_zeros = 8;  // pieces of a 16th, on which zeros are first looked for
   static constexpr std::size_t most_singular = 16;
   static constexpr double most_suspects = 6000.0;
-  static constexpr double cuts_of_a_zero = 16.0;  // what looking for one takes of the time of a large piece's
+  static constexpr double cuts_of_a_zero = 16.0;  // what looking for one takes on a large net
 
   // A zero inside, and a radius within which there is no other.
   struct Known {

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <glm/common.hpp>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -40,8 +39,7 @@ float stored(double x) {
 
 std::array<double, names.size()> values_at(const Film& film, int x, int y) {
   const FilmSample m = film.mean(x, y);
-  // Of radiances that a float holds the variance may be more.
-  const dvec3 v = glm::min(film.variance(x, y), dvec3(std::numeric_limits<float>::max()));
+  const dvec3 v = film.variance(x, y);
   const PixelGeometry& g = film.geometry[film.index(x, y)];
   return {m.color.x,       m.color.y,         m.color.z,  m.alpha,    m.albedo.x, m.albedo.y, m.albedo.z,
           g.depth,         m.normal.x,        m.normal.y, m.normal.z, g.point.x,  g.point.y,  g.point.z,

@@ -27,22 +27,22 @@ double apart_by_points(const Query& q, const Hit& a, const Hit& b) {
   return glm::dot(a.point - b.point, d) / (glm::dot(d, d) * length);
 }
 
-// What rounding may make of that.
-double point_rounding(const Query& q, const Hit& a, const Hit& b) {
+// Whether they are by more than the hits' errors and the points' rounding.
+bool are_apart(const Query& q, const Hit& a, const Hit& b) {
   const PlacedSurface &first = q.surfaces[a.surface], &second = q.surfaces[b.surface];
   const double size = largest(a.point) + largest(b.point) + extent_of(first) + extent_of(second);
-  return quotient(0x1p-51 * size, largest(q.ray->direction));
+  const double rounding = quotient(0x1p-51 * size, largest(q.ray->direction));
+  return std::fabs(apart_by_points(q, a, b)) > own_error(a) + own_error(b) + rounding;
 }
 
-// Whether the ray goes in by one and out by the other.
-bool are_opposite(const Query& q, const Hit& a, const Hit& b) {
-  const dvec3& d = q.ray->direction;
-  return glm::dot(a.normal, d) > 0.0 ? glm::dot(b.normal, d) < 0.0 : glm::dot(b.normal, d) > 0.0;
+// Whether t is so large that it may not tell which is nearer.
+bool have_one_t(const Hit& a, const Hit& b) {
+  return std::fabs(a.t - b.t) <= 0x1p-51 * (std::fabs(a.t) + std::fabs(b.t));
 }
 
 // So nearly along the wall that its two crossings may be tied with each other.
 bool grazes(const Query& q, const Hit& hit) {
-  const dvec3& d = q.ray->direction;
+  const dvec3 d = q.ray->direction / largest(q.ray->direction);
   const double along = glm::dot(hit.normal, d);
   return along * along < contact_reach * contact_reach * glm::dot(d, d);
 }
@@ -73,6 +73,10 @@ bool nearer(const Hit& a, const Hit& b) {
   return false;
 }
 
+bool are_walls_of_one_t(const Query& q, const Hit& a, const Hit& b) {
+  return have_one_t(a, b) && are_apart(q, a, b) && !grazes(q, a) && !grazes(q, b);
+}
+
 double most_doubt(const PlacedSurface& surface, double widest) {
   if (surface.compiled->bounds.empty()) return 1.0;
   const double extent = extent_of(surface);
@@ -92,15 +96,10 @@ bool are_tied(const Query& q, const Hit& a, const Hit& b) {
 
 bool comes_first(const Query& q, const Hit& a, const Hit& b) {
   // From far away t may not tell which is nearer; points do.
-  const bool far = std::fabs(a.t - b.t) <= 0x1p-51 * (std::fabs(a.t) + std::fabs(b.t));
-  if (a.surface == b.surface && (!far || !are_opposite(q, a, b))) return nearer(a, b);
+  if (a.surface == b.surface)
+    return are_walls_of_one_t(q, a, b) ? apart_by_points(q, a, b) < 0.0 : nearer(a, b);
   if (grazes(q, a) || grazes(q, b)) return nearer(a, b);
-  if (a.surface == b.surface) {
-    // Of a body's two walls the near one, unless they are in one place.
-    const double apart = apart_by_points(q, a, b);
-    return std::fabs(apart) > point_rounding(q, a, b) ? apart < 0.0 : nearer(a, b);
-  }
-  if (!are_tied(q, a, b)) return far ? apart_by_points(q, a, b) < 0.0 : nearer(a, b);
+  if (!are_tied(q, a, b)) return have_one_t(a, b) ? apart_by_points(q, a, b) < 0.0 : nearer(a, b);
   const auto wall = [](const Hit& hit) {
     return Wall{static_cast<unsigned>(hit.surface), hit.point, hit.normal};
   };
@@ -131,7 +130,7 @@ std::vector<Hit> in_order(const Query& q, const std::vector<Hit>& hits, const st
       if (hits[k].t - out[j].t > hits[k].t_error + widest) break;
       if (hits[k].t - out[j].t > hits[k].t_error + out[j].t_error) continue;
       const bool same_way = signs[k] == out_signs[j] || signs[k] == 0 || out_signs[j] == 0;
-      known = out[j].surface == hits[k].surface && same_way;
+      known = out[j].surface == hits[k].surface && same_way && !are_walls_of_one_t(q, hits[k], out[j]);
     }
     if (known) continue;
     out.push_back(hits[k]);

@@ -19,6 +19,9 @@ double tie_reach(const Query& query, const Hit& hit);
 // the other as one at its start (is_at_start).
 bool are_tied(const Query& query, const Hit& a, const Hit& b);
 
+// Whether they are two walls of one surface, as their points tell, from so far away that t does not.
+bool are_walls_of_one_t(const Query& query, const Hit& a, const Hit& b);
+
 // Which of two hits of the query's ray comes first: the nearer one, but where surfaces touch the one whose
 // wall is. Of surfaces side by side one is left before the other is entered; of nested ones the outer is
 // entered first and the inner left first.

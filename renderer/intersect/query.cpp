@@ -51,7 +51,8 @@ void take_if_first(Query& q, const Hit& hit, float& far) {
   if (q.best) {
     const double reach = q.tied_until - q.best.t;
     // Of one surface two leaves may have found the same, but not its other wall.
-    const bool other = hit.surface != q.best.surface || glm::dot(hit.normal, q.best.normal) < 0.0;
+    const bool other = hit.surface != q.best.surface || glm::dot(hit.normal, q.best.normal) < 0.0 ||
+                       are_walls_of_one_t(q, hit, q.best);
     q.ties += other && std::fabs(hit.t - q.best.t) <= reach;
     if (!comes_first(q, hit, q.best)) return;
   }

@@ -52,6 +52,7 @@ TEST_CASE("a command line that makes no sense gets one message and exit code 1",
        "scene.json: layers[0]: unknown layer \"nonesuch\"; known: \"certificate\", \"curvature\", "
        "\"highlight_lines\", \"isophotes\", \"jacobian\", \"normal_error\", \"reflection_lines\", "
        "\"residual\", \"work\" (set on the command line)"},
+      {{"render", "a", "-o="}, "-o: has no value; see rondure --help"},
       {{"render", "a", "--layers=", "-o", "b.exr"}, "--layers: has no value; see rondure --help"},
       {{"render", "a", "--layers", ",", "-o", "b.exr"},
        "--layers: has an empty name; see rondure render --help"},

@@ -31,7 +31,7 @@ std::string text_of(const Ray& ray) {
 
 TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
   std::mt19937_64 random(7);
-  long certified = 0, refused = 0, contradicted = 0, alone = 0, crowded = 0;
+  long certified = 0, refused = 0, unknown = 0, contradicted = 0, alone = 0, crowded = 0;
   std::string worst = "none";
   WorstCase t, point, radius;
   const std::vector<ClosedModel>& models = closed_models();
@@ -51,7 +51,10 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
       const Certificate c = certifiers[solver].certify(ray, hit);
       ++(c ? certified : refused);
       if (!c) continue;
-      const std::vector<oracle::Root> roots = oracle::meet(model.surface, ray).roots;
+      const oracle::Meeting truth = oracle::meet(model.surface, ray);
+      unknown += truth.exhausted;
+      if (truth.exhausted) continue;
+      const std::vector<oracle::Root>& roots = truth.roots;
       double first = INFINITY;
       for (const oracle::Root& root : roots)
         if (root.t >= 0.0 && root.outside <= 0x1p-50) first = std::min(first, root.t);
@@ -73,7 +76,7 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
         near += std::max(std::fabs(root.u - hit.u), std::fabs(root.v - hit.v)) < c.isolation;
         off = std::fmin(off, glm::length(hit.point - model.surface.origin - root.point));
       }
-      ++alone;
+      alone += c.exists && c.unique;
       crowded += c.unique && near > 1;  // where parameters are ill-conditioned the root itself may be further
       point.add(off, c.point_error + 0x1p-51 * model.radius, describe);
     }
@@ -92,7 +95,8 @@ TEST_CASE("A certificate says what the oracle finds", "[certificate]") {
   CHECK(refused < certified / 5);
   CHECK(radius.failures() < radius.count() / 10);
   CHECK(t.count() > certified / 3);
-  CHECK(alone == t.count());
+  CHECK(alone > t.count() / 2);
+  CHECK(unknown < certified / 50);
 }
 
 TEST_CASE("A hit on an analytic sphere does not stand in its own way", "[certificate]") {

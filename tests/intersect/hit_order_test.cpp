@@ -107,6 +107,33 @@ TEST_CASE("From far away the near wall of a body is met first", "[hits]") {
         for (int k = 0; k < 50; ++k)
           meet(tracer, {{away, part(random), part(random)}, {away > 0.0 ? -1.0 : 1.0, 0.0, 0.0}});
     }
+    // Walls of one object that are no body's, and a seam seen through a lens.
+    Surface walls;
+    for (int k = 0; k < 3; ++k) {
+      TensorNet net(1, 1);
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+          net.at(i, j) = dvec4(2.0 * (k == 1 ? j : i) - 1.0, 2.0 * (k == 1 ? i : j) - 1.0, -1e-9 * k, 1.0);
+      walls.patches.push_back(net);
+    }
+    const Tracer three({{walls, solver}});
+    const Ray up{{0.1, 0.2, -1e8}, {0.0, 0.0, 1.0}};
+    CHECK(three.closest(up).patch == 2);
+    const std::vector<Hit> all = three.all(up);
+    REQUIRE(all.size() == 3);
+    CHECK((all[0].patch == 2 && all[1].patch == 1 && all[2].patch == 0));
+    const Tracer seam({{mapped(pairs, glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 1e-9))), solver}});
+    meet(seam, {{-20938806.026510805, -249172.92126482486, 97782944.89797531},
+                {0.2093880607651522, 0.002491729712692415, -0.9778294489797531}});
+    for (int k = 0; k < 300; ++k) {
+      // At places of the seams, along x and y and the diagonals.
+      const double along = part(random);
+      const dvec3 target = k % 3 == 0   ? dvec3(along, 0.0, 0.0)
+                           : k % 3 == 1 ? dvec3(0.0, along, 0.0)
+                                        : dvec3(along, along, 0.0);
+      const dvec3 d = glm::normalize(dvec3(0.3 * part(random), 0.3 * part(random), -1.0));
+      meet(seam, {target - 1e8 * d, d});
+    }
     // So small where it is that its walls have one t and one point: the patches' numbers decide, and both
     // walls are told.
     CHECK(Tracer({{placed(tiling, 3e-17, dvec3(1.0)), solver}})

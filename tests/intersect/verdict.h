@@ -22,6 +22,7 @@ struct Verdict {
 struct SphereVerdict {
   bool in_band = false;  // the line is as near to touching as leaves the count to rounding
   bool counted = true;   // there are as many hits as the sphere has
+  bool many = false;     // there are more than any line has
   bool placed = true;    // and, outside of the band, each at its t
 };
 // A root lies where the surface is within the band of the ray, and so moves along the ray by no more than

@@ -245,8 +245,9 @@ class Search {
   }
 
   // Whether there are two roots at most on the piece, or none and all but two: on the zeros of one
-  // combination f, which cross the piece in one arc because a derivative keeps its sign, the other is bent
-  // one way only, because the rate at which J changes along them (turning.h) keeps its sign.
+  // combination f, which are graphs because a derivative keeps its sign, the other is bent one way only,
+  // because the rate at which J changes along them (turning.h) keeps its sign. (Were they in several arcs,
+  // each would have two; so small is the piece that this is only where all derivatives vanish.)
   bool turns_once(const Piece& piece) const {
     const Real middle = triangle() ? Real(1) / 3 : Real(0.5);
     Real2 p{middle, middle};

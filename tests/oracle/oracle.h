@@ -23,8 +23,9 @@ struct Root {
   dvec3 point{0.0};      // in the surface's frame
   double outside = 0.0;  // by how much (u, v) is outside of the patch's domain; negative inside
   double cosine = 0.0;   // |normal . direction| of unit vectors; 0 where there is no normal
-  int multiplicity = 0;  // 1; 2: two within 10^-19 of each other, or touching; 0: not known (singular points)
-  bool certified = true;  // proven to exist, and its multiplicity to be as stated
+  // 1; 2: two within 10^-19 of each other, or touching, or missing by as little; 0: not known (singular points)
+  int multiplicity = 0;
+  bool certified = true;  // proven: 1 to exist, 2 that there are no more
   int way = 0;            // sign of normal . direction
 };
 

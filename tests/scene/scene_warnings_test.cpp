@@ -23,6 +23,25 @@ TEST_CASE("a wall that two bodies of one object share is warned of", "[scene]") 
   CHECK(pair->second >= 6);
   bricks.patches.erase(bricks.patches.begin() + static_cast<std::ptrdiff_t>(pair->second));
   CHECK_FALSE(coincident_patches(bricks.patches));
+  // Other patches of the same points.
+  TensorNet saddle(1, 1);
+  saddle.points = {dvec4(0, 0, 0, 1), dvec4(1, 0, 0, 1), dvec4(0, 1, 0, 1), dvec4(0, 0, 1, 1)};
+  TensorNet other = saddle;
+  std::swap(other.points[2], other.points[3]);
+  CHECK_FALSE(coincident_patches({saddle, other}));
+  TriangleNet triangle(2);
+  for (int i = 0, k = 0; i <= 2; ++i)
+    for (int j = 0; i + j <= 2; ++j, ++k) triangle.at(i, j) = dvec4(k, k * k, 0, 1);
+  TriangleNet turned(2), mirrored(2), mixed = triangle;
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; i + j <= 2; ++j) {
+      turned.at(i, j) = triangle.at(j, 2 - i - j);
+      mirrored.at(i, j) = triangle.at(j, i);
+    }
+  std::swap(mixed.points[0], mixed.points[1]);
+  CHECK(coincident_patches({triangle, turned}));
+  CHECK(coincident_patches({triangle, mirrored}));
+  CHECK_FALSE(coincident_patches({triangle, mixed}));
   for (const char* family : {R"({"type": "sphere_tiling", "topology": "hemispheres"})",
                              R"({"type": "sphere_tiling", "topology": "rhombicuboctahedron"})",
                              R"({"type": "sphere_octant"})", R"({"type": "gc_octahedron"})"})
