@@ -6,15 +6,14 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <charconv>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "renderer/api/version.h"
 #include "renderer/commands/commands.h"
+#include "renderer/commands/option_values.h"
 #include "renderer/scene/unknown_name.h"
 
 namespace rondure {
@@ -35,45 +34,6 @@ std::pair<CLI::App*, Options*> add(CLI::App& program, CommandLine& line, const c
   return {command, options.get()};
 }
 
-// For options whose empty value CLI11 takes for none.
-CLI::Validator not_empty(const char* complaint) {
-  return CLI::Validator([complaint](const std::string& value) { return value.empty() ? complaint : ""; }, "");
-}
-
-// Names separated by commas, none of them empty.
-CLI::Validator are_names() {
-  return CLI::Validator(
-      [](const std::string& value) {
-        return ("," + value + ",").find(",,") != std::string::npos ? "has an empty name" : "";
-      },
-      "");
-}
-
-// The names of every time that the option stands.
-std::vector<std::string> split_names(const std::vector<std::string>& lists) {
-  std::vector<std::string> names;
-  for (const std::string& list : lists) {
-    std::istringstream text(list);
-    for (std::string name; std::getline(text, name, ',');) names.push_back(name);
-  }
-  return names;
-}
-
-// Whole numbers. Of larger ones than 64 bits hold CLI11 takes the largest that they do.
-CLI::Validator is_integer() {
-  return CLI::Validator(
-      [](const std::string& value) -> std::string {
-        std::int64_t number;
-        const char* end = value.data() + value.size();
-        const auto [stop, error] = std::from_chars(value.data(), end, number);
-        if (error == std::errc::result_out_of_range)
-          return fmt::format("takes a number up to {}, found {}", INT64_MAX, value);
-        return error == std::errc{} && stop == end ? ""
-                                                   : fmt::format("takes an integer, found \"{}\"", value);
-      },
-      "");
-}
-
 void add_output(CLI::App& command, std::string& path, const char* what) {
   command.add_option("-o,--output", path, fmt::format("{}; - for standard output (the default)", what))
       ->check(not_empty("names no file; - is standard output"));
@@ -90,15 +50,6 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option("--solver", options.overrides.solver,
                   "Solver of every object: auto, newton, clipping, radial or quadric")
       ->type_name("NAME");
-}
-
-// Two positive integers around an x.
-bool parse_resolution(const std::string& text, std::pair<std::int64_t, std::int64_t>& size) {
-  const char* end = text.data() + text.size();
-  const auto [middle, error] = std::from_chars(text.data(), end, size.first);
-  if (error != std::errc{} || middle == end || (*middle != 'x' && *middle != 'X')) return false;
-  const auto [stop, error2] = std::from_chars(middle + 1, end, size.second);
-  return error2 == std::errc{} && stop == end && size.first > 0 && size.second > 0;
 }
 
 // --spp, --seed, --resolution WxH, --integrator, --normals, --layers.
