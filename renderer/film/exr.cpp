@@ -13,15 +13,14 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include "renderer/api/version.h"
 #include "renderer/film/atomic_file.h"
+#include "renderer/film/stored.h"
 
 namespace rondure {
 namespace {
@@ -30,12 +29,6 @@ constexpr std::array names = {
     "R",    "G",    "B",          "A",          "Albedo.R",  "Albedo.G", "Albedo.B", "Depth.Z",
     "N.X",  "N.Y",  "N.Z",        "P.X",        "P.Y",       "P.Z",      "Patch.id", "Patch.surface",
     "UV.U", "UV.V", "Variance.R", "Variance.G", "Variance.B"};
-
-// What a float holds of a number.
-float stored(double x) {
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -most, most));
-}
 
 std::array<double, names.size()> values_at(const Film& film, int x, int y) {
   const FilmSample m = film.mean(x, y);
@@ -67,9 +60,8 @@ Imf::Header make_header(const Film& film, const ExrHeader& info) {
   const Imath::Box2i data({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1});
   const double aspect = static_cast<double>(film.width()) / film.height();
   // At distance 1, or of the orthographic window.
-  const double screen = std::min(info.camera.extent * aspect, double(std::numeric_limits<float>::max()));
-  Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, static_cast<float>(screen), Imf::INCREASING_Y,
-                     Imf::ZIP_COMPRESSION);
+  const float screen = stored(info.camera.extent * aspect);
+  Imf::Header header(display, data, 1.0f, {0.0f, 0.0f}, screen, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
   for (const std::string& name : channels_of(film)) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   Imf::addChromaticities(header, Imf::Chromaticities{});  // Rec. 709, D65
   Imf::addWorldToCamera(header, matrix(world_to_camera(info.camera)));

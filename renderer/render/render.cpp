@@ -16,6 +16,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "renderer/film/stored.h"
 #include "renderer/parallel/parallel_for.h"
 #include "renderer/plugin/call_plugin.h"
 
@@ -85,14 +86,6 @@ struct LayerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What a float holds of a layer's value.
-float stored(double value, const std::string& channel) {
-  if (std::isnan(value))
-    throw LayerError(fmt::format("the layer \"{}\" gave no number for a pixel", channel));
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -most, most));
-}
-
 void take_layers(const Job& job, const Ray& ray, const Hit& hit, std::size_t at, Film& film) {
   std::size_t plane = 0;
   std::vector<double> values;
@@ -104,8 +97,10 @@ void take_layers(const Job& job, const Ray& ray, const Hit& hit, std::size_t at,
       throw LayerError(fmt::format("the layer \"{}\" {}", layer.type, plugin_failure()));
     }
     for (const double value : values) {
-      film.layers[plane].values[at] = stored(value, film.layers[plane].channel);
-      ++plane;
+      LayerPlane& channel = film.layers[plane++];
+      if (std::isnan(value))
+        throw LayerError(fmt::format("the layer \"{}\" gave no number for a pixel", channel.channel));
+      channel.values[at] = stored(value);
     }
   }
 }

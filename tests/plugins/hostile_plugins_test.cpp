@@ -123,11 +123,34 @@ TEST_CASE("a family that breaks its promises is refused at the object", "[plugin
                 "rondure: error: scene.json:2:7: objects[0].of: the family \"absurd\" made a surface"));
 }
 
+struct Refusal {
+  std::string as, message;
+};
+
+// A small render with the plugin of absurd things, one value of the scene set.
+ProcessResult render_absurd(const std::string& folder, const std::string& setting,
+                            const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {
+      "render",  "scene.json", "--resolution",        "8x8",   "--spp", "2", "--quiet", "-o",
+      "out.exr", "--plugin",   plugin_path("absurd"), "--set", setting};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_rondure(arguments, {folder, {}, ""});
+}
+
+// Renders each in turn: `render(as)` must fail with its message, and leave nothing behind.
+template <class Render>
+void check_refusals(const std::string& folder, const std::vector<Refusal>& table, const Render& render) {
+  for (const Refusal& row : table) {
+    const ProcessResult result = render(row.as);
+    CAPTURE(row.as);
+    CHECK(result.err == "rondure: error: " + row.message + "\n");
+    CHECK(result.exit_code == 1);
+    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
+  }
+}
+
 TEST_CASE("an integrator that breaks its promises ends the render with a message", "[plugin][hostile]") {
-  struct Row {
-    std::string as, message;
-  };
-  const Row table[] = {
+  const std::vector<Refusal> table = {
       {"null", "scene.json: integrator: the integrator \"absurd\" made nothing"},
       {"throws", "scene.json: integrator: the integrator \"absurd\" failed: no licence for integrators"},
       {"throws_number",
@@ -137,67 +160,45 @@ TEST_CASE("an integrator that breaks its promises ends the render with a message
   };
   const std::string folder = folder_with("hostile_integrators");
   const auto render = [&](const std::string& as) {
-    return run_rondure(
-        {"render", "scene.json", "--resolution", "8x8", "--spp", "2", "--quiet", "-o", "out.exr", "--plugin",
-         plugin_path("absurd"), "--set", "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}"},
-        {folder, {}, ""});
+    return render_absurd(folder, "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}");
   };
-  for (const Row& row : table) {
-    const ProcessResult result = render(row.as);
-    CAPTURE(row.as);
-    CHECK(result.err == "rondure: error: " + row.message + "\n");
-    CHECK(result.exit_code == 1);
-    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
-  }
+  check_refusals(folder, table, render);
   CHECK(render("nan").err.starts_with(
       "rondure: error: 128 of the picture's samples were negative, not finite"));
   CHECK(render("well").exit_code == 0);
 }
 
 TEST_CASE("a legend that cannot be drawn is refused before the render", "[plugin][hostile]") {
-  struct Row {
-    std::string as, message;
-  };
-  const Row table[] = {
-      {"throws_legend", "failed: no licence for words"},
-      {"throws_number_legend", "failed with an exception of unknown type"},
-      {"no_colors", "made a legend that has no colours"},
-      {"nan_color", "made a legend that has a colour that is not finite"},
-      {"log_zero", "made a legend that has no range of numbers from low to high, positive where logarithmic"},
-      {"log_negative",
-       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
-      {"nan_scale",
-       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
-      {"empty_scale",
-       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
-      {"wide_scale",
-       "made a legend that has no range of numbers from low to high, positive where logarithmic"},
-      {"bad_title", "made a legend that has a title that is no short line of text"},
-      {"long_title", "made a legend that has a title that is no short line of text"},
+  const std::string who = "the integrator \"absurd\" ",
+                    no_range = who +
+                               "made a legend that has no range of numbers from low to high, positive "
+                               "where logarithmic",
+                    no_title = who + "made a legend that has a title that is no short line of text";
+  const std::vector<Refusal> table = {
+      {"throws_legend", who + "failed: no licence for words"},
+      {"throws_number_legend", who + "failed with an exception of unknown type"},
+      {"no_colors", who + "made a legend that has no colours"},
+      {"nan_color", who + "made a legend that has a colour that is not finite"},
+      {"log_zero", no_range},
+      {"log_negative", no_range},
+      {"nan_scale", no_range},
+      {"empty_scale", no_range},
+      {"wide_scale", no_range},
+      {"bad_title", no_title},
+      {"long_title", no_title},
   };
   const std::string folder = folder_with("hostile_legends");
   const auto render = [&](const std::string& as) {
-    return run_rondure({"render", "scene.json", "--resolution", "64x8", "--spp", "1", "--quiet", "-o",
-                        "out.exr", "--png", "out.png", "--plugin", plugin_path("absurd"), "--set",
-                        "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}"},
-                       {folder, {}, ""});
+    return render_absurd(folder, "/integrator={\"type\": \"absurd\", \"as\": \"" + as + "\"}",
+                         {"--png", "out.png"});
   };
-  for (const Row& row : table) {
-    const ProcessResult result = render(row.as);
-    CAPTURE(row.as);
-    CHECK(result.err == "rondure: error: the integrator \"absurd\" " + row.message + "\n");
-    CHECK(result.exit_code == 1);
-    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
-  }
+  check_refusals(folder, table, render);
   CHECK(render("well").exit_code == 0);
   CHECK(names_in(folder) == std::vector<std::string>{"out.exr", "out.png", "scene.json"});
 }
 
 TEST_CASE("a layer that breaks its promises ends the render with a message", "[plugin][hostile]") {
-  struct Row {
-    std::string as, message;
-  };
-  const Row table[] = {
+  const std::vector<Refusal> table = {
       {"null", "scene.json: layers[0]: the layer \"absurd\" made nothing"},
       {"throws", "scene.json: layers[0]: the layer \"absurd\" failed: no licence for layers"},
       {"throws_number",
@@ -208,18 +209,9 @@ TEST_CASE("a layer that breaks its promises ends the render with a message", "[p
   };
   const std::string folder = folder_with("hostile_layers");
   const auto render = [&](const std::string& as) {
-    return run_rondure(
-        {"render", "scene.json", "--resolution", "8x8", "--spp", "1", "--quiet", "-o", "out.exr", "--plugin",
-         plugin_path("absurd"), "--set", "/film/layers=[{\"type\": \"absurd\", \"does\": \"" + as + "\"}]"},
-        {folder, {}, ""});
+    return render_absurd(folder, "/film/layers=[{\"type\": \"absurd\", \"does\": \"" + as + "\"}]");
   };
-  for (const Row& row : table) {
-    const ProcessResult result = render(row.as);
-    CAPTURE(row.as);
-    CHECK(result.err == "rondure: error: " + row.message + "\n");
-    CHECK(result.exit_code == 1);
-    CHECK(names_in(folder) == std::vector<std::string>{"scene.json"});
-  }
+  check_refusals(folder, table, render);
   CHECK(render("well").exit_code == 0);  // an infinity is a large number
 }
 
