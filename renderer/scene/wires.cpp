@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "renderer/bezier/tube.h"
 #include "renderer/projective/ball.h"
@@ -11,7 +12,8 @@ namespace rondure {
 // Points that share a cell of a thousandth of the radius cannot be told apart in a picture. What rounding
 // puts into two cells is drawn twice, which does no harm.
 Wires::Place Wires::place(const dvec3& point) const {
-  const double cell = tube_accuracy * radius_;
+  // Of the thinnest radii that would be zero.
+  const double cell = std::fmax(tube_accuracy * radius_, std::numeric_limits<double>::min());
   return {std::round(point.x / cell), std::round(point.y / cell), std::round(point.z / cell)};
 }
 
