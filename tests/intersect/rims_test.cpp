@@ -15,7 +15,8 @@ using namespace rondure;
 TEST_CASE("A rim casts the shadow of what is inside it, and no wider one", "[hits]") {
   const std::string parameters = GENERATE(
       R"({"type": "sphere_cap", "z_max": -0.3})", R"({"type": "sphere_octant", "octants": [0, 3, 5]})",
-      R"({"type": "spherical_quad", "corners": [[3, 0, -0.5], [0.2, 2, -0.4], [-1, 0.5, 1], [0.3, -1, 0.2]]})");
+      R"({"type": "spherical_quad", "corners": [[3, 0, -0.5], [0.2, 2, -0.4], [-1, 0.5, 1], [0.3, -1, 0.2]]})",
+      R"({"type": "circular_triangle", "corners": [[3, 0.4, -0.5], [0.2, 2, -0.4], [-1, 0.5, 1]]})");
   const Surface surface = build_family(parameters);
   const Tracer tracer({{surface, Solver::quadric}}), newton({{surface, Solver::newton}});
   std::mt19937_64 random(29);
