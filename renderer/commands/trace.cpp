@@ -15,11 +15,15 @@
 namespace rondure {
 namespace {
 
-constexpr std::size_t block = 1 << 14;  // rays that are traced together and then written in order
+constexpr std::size_t block = 1 << 14;     // rays that are traced together and then written in order
+constexpr double farthest_origin = 1e297;  // with it set_base() finds the way to any scene
 
 Ray read_ray(const CsvReader& reader, const std::vector<double>& row, std::size_t present) {
   for (std::size_t k = 0; k < 6; ++k)
     if (!std::isfinite(row[k])) reader.fail(k, "origin and direction must be finite");
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::fabs(row[k]) > farthest_origin)
+      reader.fail(k, fmt::format("a ray from beyond {:.0e} cannot be followed", farthest_origin));
   Ray ray;
   ray.origin = {row[0], row[1], row[2]};
   ray.direction = {row[3], row[4], row[5]};

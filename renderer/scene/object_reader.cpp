@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "renderer/api/utf8.h"
@@ -10,6 +11,7 @@
 #include "renderer/continuity/seams.h"
 #include "renderer/intersect/ellipsoid.h"
 #include "renderer/intersect/ellipsoid_fit.h"
+#include "renderer/intersect/local_ray.h"
 #include "renderer/intersect/radial.h"
 #include "renderer/plugin/build_surface.h"
 #include "renderer/scene/show.h"
@@ -18,6 +20,8 @@
 
 namespace rondure {
 namespace {
+
+constexpr const char* way_out = "take a family of patches, such as \"sphere_tiling\"";
 
 void transform_all(Surface& surface, const dmat4& map) {
   if (mirrors(map)) {
@@ -34,24 +38,37 @@ void transform_all(Surface& surface, const dmat4& map) {
   }
 }
 
+// Whether a column is infinite or next to none, as those of steps that multiply to it may be.
+bool leaves_numbers(const dmat3& map) {
+  using Limits = std::numeric_limits<double>;
+  for (int j = 0; j < 3; ++j) {
+    const double size = largest(map[j]);
+    if (!is_finite(map[j]) || !(size >= Limits::min() && size <= Limits::max())) return true;
+  }
+  return false;
+}
+
 void place_affine(Surface& surface, const Placement& placement) {
   const dmat3 map(placement.transform);
   const dmat3 linear = map * placement.radius;
+  if (leaves_numbers(linear))
+    throw std::invalid_argument("its radius and transform multiply to a size that no number has");
   surface.origin =
       map * (placement.center + placement.radius * surface.origin) + dvec3(placement.transform[3]);
   if (linear == dmat3(1.0)) return;
   if (surface.ellipsoid) {
     *surface.ellipsoid = linear * *surface.ellipsoid;
     if (is_too_flat(*surface.ellipsoid))
-      throw std::invalid_argument(
-          fmt::format("the closed form bears semi-axes in a ratio up to {:.0e}", flattest_ellipsoid));
+      throw std::invalid_argument(fmt::format("the closed form bears semi-axes in a ratio up to {:.0e}; {}",
+                                              flattest_ellipsoid, way_out));
   }
   transform_all(surface, dmat4(linear));
 }
 
 void place_projective(Surface& surface, const Placement& placement) {
   if (surface.ellipsoid)
-    throw std::invalid_argument("a projective transform does not keep an analytic sphere analytic");
+    throw std::invalid_argument(
+        fmt::format("a projective transform does not keep an analytic sphere analytic; {}", way_out));
   dmat4 frame(placement.radius);
   frame[3] = dvec4(placement.center + placement.radius * surface.origin, 1.0);
   dmat4 map = placement.transform * frame;
@@ -134,8 +151,8 @@ std::vector<SceneObject> read_object(Params& params, const Registry& registry,
   try {
     place(object.traced.surface, placement);
   } catch (const std::invalid_argument& error) {
-    params.fail("transform", fmt::format("\"{}\": {}; take a family of patches, such as \"sphere_tiling\"",
-                                         printable(object.type), error.what()));
+    const char* key = params.raw("transform") ? "transform" : "radius";
+    params.fail(key, fmt::format("\"{}\": {}", printable(object.type), error.what()));
   }
   ShownParts parts = shown_parts(params, show, object.traced.surface);
   std::vector<SceneObject> objects;

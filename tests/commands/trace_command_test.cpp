@@ -147,6 +147,7 @@ TEST_CASE("trace points at what is wrong with a table", "[command]") {
       {"0,0,3,0,0,0", "2:7: the direction is zero\n    0,0,3,0,0,0\n          ^"},
       {"0,0,3,0,0,1e400", "2:11: \"dz\" is out of a double's range\n    0,0,3,0,0,1e400\n              ^"},
       {"0,0,3,0,0,inf", "2:11: origin and direction must be finite\n    0,0,3,0,0,inf\n              ^"},
+      {"0,-2e297,3,0,1,0", "2:3: a ray from beyond 1e+297 cannot be followed\n    0,-2e297,3,0,1,0\n      ^"},
       {"0,0,3,0,0,-1,nan",
        "2:14: \"tmin\" must be a number, found \"nan\"\n    0,0,3,0,0,-1,nan\n                 ^"},
   };

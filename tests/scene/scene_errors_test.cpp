@@ -172,6 +172,10 @@ TEST_CASE("objects that lack or misname something say what and where", "[scene]"
       {"{\"type\": \"sphere\", \"transform\": [{\"scale\": [1,1,1e-9]}]}",
        "s.json:1:47: \"sphere\": the closed form bears semi-axes in a ratio up to 1e+08; take a family of "
        "patches, such as \"sphere_tiling\""},
+      {"{\"type\": \"sphere\", \"transform\": [{\"scale\": 1e200}, {\"scale\": 1e200}]}",
+       "s.json:1:47: \"sphere\": its radius and transform multiply to a size that no number has"},
+      {"{\"type\": \"sphere\", \"radius\": 1e-320}",
+       "s.json:1:44: \"sphere\": its radius and transform multiply to a size that no number has"},
       {"{\"type\": \"sphere\", \"transform\": [{\"scale\": [1,0,1]}]}",
        "s.json:1:58: \"scale\" must not be zero: it flattens the surface"},
       {"{\"type\": \"sphere\", \"transform\": [{\"scale\": \"big\"}]}",
