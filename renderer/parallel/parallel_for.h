@@ -26,18 +26,23 @@ struct Task {
 template <class Body, class Partitioner = tbb::auto_partitioner>
 void parallel_for(std::size_t count, const Body& body, const Partitioner& partitioner = {}) {
   Handover there, back;
-  struct Giver {  // also when a body throws
+  // Also when a body throws.
+  struct Giver {
     Handover& handover;
     ~Giver() { handover.give(); }
+  };
+  struct Taker {
+    Handover& handover;
+    ~Taker() { handover.take(); }
   };
   const auto part = [&](std::size_t begin, std::size_t end) {
     const Giver giver{back};
     for (std::size_t k = begin; k < end; ++k) body(k);
   };
+  const Taker taker{back};
   there.give();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), Task<decltype(part)>{&there, &part},
                     partitioner);
-  back.take();
 }
 
 }  // namespace rondure

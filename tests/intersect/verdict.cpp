@@ -33,7 +33,9 @@ SphereVerdict judge_by_sphere(const ClosedModel& model, const Ray& ray, const st
   out.many = hits.size() > 2;
   if (out.in_band || !out.counted) return out;
   const double unit = model.radius / glm::length(direction);
-  constexpr double modest = 16.0;  // what a hit may claim to be wrong, for what the band makes of it
+  // What a hit may claim to be wrong, for what the band makes of it: of the size of what it bounds, that is.
+  // Both are made of the same roundings; a solver may count twice as many. The rest is slack, not derived.
+  constexpr double modest = 16.0;
   for (std::size_t k = 0; k < hits.size(); ++k) {
     const double t = std::ldexp(hits[k].t, exponent), claimed = std::ldexp(hits[k].t_error, exponent);
     const double moved = 2.0 * model.band * unit / exact.cosine, rounding = rounding_of(t, unit);
@@ -130,6 +132,8 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
 }
 
 bool touches_edge(const Surface& surface, const Ray& ray) {
+  // Of the parameters, 512 roundoffs: rounding moves a root by some tens, over the patch's speed there. That
+  // is zero at singular corners, so no number is a bound; the test counts what this excuses, and bounds it.
   constexpr double glancing = 0x1p-8, rounding = 0x1p-44;
   // Where the cosine is the square root of rounding, roots are that far beside the edge too.
   const std::vector<oracle::Root> roots = oracle::meet(surface, ray, 0x1p-46, 0x1p-22).roots;
