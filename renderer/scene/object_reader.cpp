@@ -40,11 +40,8 @@ void transform_all(Surface& surface, const dmat4& map) {
 
 // Whether a column is infinite or next to none, as those of steps that multiply to it may be.
 bool leaves_numbers(const dmat3& map) {
-  using Limits = std::numeric_limits<double>;
-  for (int j = 0; j < 3; ++j) {
-    const double size = largest(map[j]);
-    if (!is_finite(map[j]) || !(size >= Limits::min() && size <= Limits::max())) return true;
-  }
+  for (int j = 0; j < 3; ++j)
+    if (!is_finite(map[j]) || largest(map[j]) < std::numeric_limits<double>::min()) return true;
   return false;
 }
 

@@ -19,9 +19,8 @@ using namespace rondure;
 namespace {
 
 constexpr auto classes = static_cast<std::size_t>(RayClass::count);
-constexpr long block = 240;  // rays of one seed
-constexpr long sample =
-    16384;  // one ray in so many of a class is judged whatever its parity; more of rare ones
+constexpr long block = 240;     // rays of one seed
+constexpr long sample = 16384;  // one ray in so many is judged whatever its parity; more of rare classes
 
 struct Tally {
   std::array<long, classes> rays{}, hits{}, in_band{}, judged{};
