@@ -85,25 +85,35 @@ dvec2 correct_strong(const Net& net, const LocalRay& ray, dvec2 p) {
 // Newton's method where the Jacobian is nearly singular. A full step follows the direction in which the patch
 // hardly moves, and curvature throws it off the other equation; so each trial step, shortened until it helps,
 // is followed by a correction of the strong equation alone. Kept only when the residual falls; done when it
-// is below `enough`.
+// is a quarter of `bound`. Where a ray runs in the plane of a side and meets it twice, a long step leaves the
+// one root for the other: so the correction alone is taken if it will do, and within `bound` steps are short.
 template <class Shape>
-dvec2 improve(const Net& net, double enough, const LocalRay& ray, dvec2 p) {
+dvec2 improve(const Net& net, double bound, const LocalRay& ray, dvec2 p) {
+  constexpr double longest = 0.5, longest_within = 0x1p-13;
+  const double enough = 0.25 * bound;
   p = Shape::clamp(p);
   dvec2 f = extended_residual(net, ray, p);
+  const auto take_if = [&](const auto& good, dvec2 q) {
+    const dvec2 next = extended_residual(net, ray, q);
+    if (!good(next)) return false;
+    p = q, f = next;
+    return true;
+  };
+  const auto is_better = [&](dvec2 next) { return glm::dot(next, next) < glm::dot(f, f); };
+  const auto will_do = [&](dvec2 next) { return size_of(next) <= bound; };
+  if (!will_do(f)) take_if(will_do, correct_strong<Shape>(net, ray, p));
   for (int k = 0; k < 16 && size_of(f) > enough; ++k) {
     const FirstOrder<dvec2> s = projected(net, ray, p);
     const double det = s.du.x * s.dv.y - s.du.y * s.dv.x;
     const dvec2 full =
         det != 0.0 ? dvec2(s.dv.y * f.x - s.dv.x * f.y, s.du.x * f.y - s.du.y * f.x) / det : dvec2(0.0);
-    const double length = size_of(full);
+    const double length = size_of(full), most = will_do(f) ? longest_within : longest;
     bool better = false;
     // The last trial is the correction alone.
-    for (double part = std::fmin(1.0, quotient(0.5, length)); !better; part *= 0.25) {
+    for (double part = std::fmin(1.0, quotient(most, length)); !better; part *= 0.25) {
       if (!(part * length > unit_roundoff)) part = 0.0;  // lost in the parameters
-      const dvec2 q = correct_strong<Shape>(net, ray, part == 0.0 ? p : Shape::clamp(p - part * full));
-      const dvec2 next = extended_residual(net, ray, q);
-      better = glm::dot(next, next) < glm::dot(f, f);
-      if (better) p = q, f = next;
+      const dvec2 from = part == 0.0 ? p : Shape::clamp(p - part * full);
+      better = take_if(is_better, correct_strong<Shape>(net, ray, from));
       if (part == 0.0) break;
     }
     if (!better) break;
@@ -125,7 +135,7 @@ template <class Shape>
 bool settle_in(const Net& net, double bound, const LocalRay& ray, Root& root) {
   dvec2 p(root.u, root.v);
   if (root.tangent)
-    p = improve<Shape>(net, 0.25 * bound, ray, p);
+    p = improve<Shape>(net, bound, ray, p);
   else if (Shape::outside(p) > 0.0)
     p = sharpened(net, ray, p);
   else

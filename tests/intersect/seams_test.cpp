@@ -12,6 +12,7 @@
 #include "tests/catch.h"
 #include "tests/intersect/placed.h"
 #include "tests/intersect/random_direction.h"
+#include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
 
 namespace rondure {
@@ -111,6 +112,49 @@ TEST_CASE("No ray passes where patches meet", "[hits][seams]") {
   CHECK(twice == 0);
   CHECK(worst == "none");
   CHECK(rays == 9 * (3 * 3000 + 500));
+}
+
+// Through two points of one side, in the level plane in which the walls of a house bend into its roof: the
+// ray grazes the side twice, in points that no equation but the side's own tells apart.
+TEST_CASE("The closest hit of a ray along a side is the first of all", "[hits][seams]") {
+  const Surface house = build_family(R"({"type": "gc_complex", "degree": 4,
+    "complex": {"polygons": [[3, 2, 1, 0], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7],
+      [4, 5, 8], [5, 6, 8], [6, 7, 8], [7, 4, 8]]},
+    "vertices": [[-0.8, -0.8, -0.8], [0.8, -0.8, -0.8], [0.8, 0.8, -0.8], [-0.8, 0.8, -0.8],
+      [-0.8, -0.8, 0.5], [0.8, -0.8, 0.5], [0.8, 0.8, 0.5], [-0.8, 0.8, 0.5], [0, 0, 1.5]]})");
+  const Tracer tracer({{house, Solver::newton}});
+  const std::vector<Net>& nets = tracer.surfaces()[0].surface.patches;
+  std::mt19937_64 random(31);
+  const auto draw = [&] { return std::uniform_real_distribution<double>(0.0, 1.0)(random); };
+  const int aimed = static_cast<int>(soaked(400.0, 40'000.0));  // of milliseconds each
+  int rays = 0, unlike = 0;
+  std::string worst = "none";
+  for (int k = 0; rays < aimed && k < 100 * aimed; ++k) {
+    const Net& net = nets[random() % nets.size()];
+    const auto point = [&](double s) {
+      return k % 3 == 0   ? net_point(net, 0.0, s)
+             : k % 3 == 1 ? net_point(net, s, 0.0)
+                          : net_point(net, s, 1.0 - s);
+    };
+    const dvec3 a = point(draw()), b = point(draw());
+    // Of points nearer each other than leaves are wide, both are one leaf's to find.
+    if (std::fabs(a.z - b.z) > 1e-15 || glm::distance(a, b) < 0.2) continue;
+    ++rays;
+    const Ray ray{a + 3.0 * (a - b), b - a};
+    const Hit closest = tracer.closest(ray);
+    const std::vector<Hit> all = tracer.all(ray);
+    const bool same = !all.empty() && closest.t == all[0].t && closest.patch == all[0].patch &&
+                      closest.u == all[0].u && closest.v == all[0].v;
+    if (same) continue;
+    ++unlike;
+    worst = fmt::format(
+        "{} hits, patch {} or {}, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})",
+        all.size(), closest.patch, all.empty() ? -1 : all[0].patch, ray.origin.x, ray.origin.y, ray.origin.z,
+        ray.direction.x, ray.direction.y, ray.direction.z);
+  }
+  INFO(unlike << " of " << rays << " rays; the last: " << worst);
+  CHECK(unlike == 0);
+  CHECK(rays == aimed);
 }
 
 }  // namespace rondure

@@ -12,6 +12,7 @@
 #include "renderer/bezier/rational.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
+#include "tests/intersect/closed_models.h"
 #include "tests/intersect/mapped.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/soak.h"
@@ -110,6 +111,57 @@ TEST_CASE("No ray passes beside a singular corner of patches that are parametris
   INFO(wrong << " of " << rays << " rays are met wrongly; the last: " << worst << text);
   CHECK(wrong == 0);
   CHECK(rays > 2 * 2 * 3 * placings * aimed * 9 / 10);
+}
+
+// So near that both roots are beside the corner, where parameters tell next to nothing of the place: ten
+// times as deep as rounding hides (tangency_band), down to 10^-9 radii.
+TEST_CASE("A ray that passes beneath a singular corner meets both walls", "[hits][seams]") {
+  std::mt19937_64 random(37);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  struct Ball {
+    const char* object;
+    double part;  // a ray beside the corner of a tiling costs milliseconds
+  };
+  const double aimed = soaked(4000, 400'000);
+  long wrong = 0;
+  std::string text, worst = "none";
+  for (const auto& [object, part] : {Ball{R"({"type": "sphere_octant"})", 1.0},
+                                     {R"({"type": "sphere_tiling", "topology": "hemispheres"})", 0.03},
+                                     {R"({"type": "sphere_tiling", "topology": "octahedron_pairs"})", 0.03}})
+    for (const auto& [solver, name] : {std::pair{Solver::newton, "newton"}, {Solver::clipping, "clipping"}}) {
+      const Tracer tracer({{build_family(object), solver}});
+      const std::vector<Net>& nets = tracer.surfaces()[0].surface.patches;
+      const double band = tangency_band(tracer.surfaces()[0].surface, 1.0);
+      const long rays = static_cast<long>(part * aimed);
+      long here = 0;
+      for (long k = 0; k < rays; ++k) {
+        const Net& net = nets[random() % nets.size()];
+        constexpr dvec2 corners[4] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}};
+        const dvec2 at = corners[random() % (std::holds_alternative<TriangleNet>(net) ? 3 : 4)];
+        const dvec3 up = glm::normalize(net_point(net, at.x, at.y));
+        const dvec3 level = glm::normalize(glm::cross(up, random_direction(random)));
+        const double depth = std::pow(10.0, draw(std::log10(10.0 * band), -9.0));
+        // Straight beneath, or so far to the side that a quarter of the depth is lost at most; and level but
+        // for rounding, which depends on how planes lie about the ray.
+        const double side = k % 2 == 0 ? 0.0 : std::sqrt(0.5 * depth) * std::pow(10.0, draw(-4.0, 0.0));
+        const dvec3 direction = level + draw(-1e-16, 1e-16) * up;
+        const Ray ray{(1.0 - depth) * up + side * glm::cross(up, level) - draw(1.0, 4.0) * direction,
+                      direction};
+        const std::vector<Hit> hits = tracer.all(ray);
+        const Hit closest = tracer.closest(ray);
+        if (hits.size() == 2 && closest.t == hits[0].t && tracer.occluded(ray)) continue;
+        ++wrong, ++here;
+        worst = fmt::format(
+            "depth {:.3g}: {} hits, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})", depth,
+            hits.size(), ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
+            ray.direction.z);
+      }
+      if (here > 0) text += fmt::format("\n  {} of {} at {} by {}", here, rays, object, name);
+    }
+  INFO(wrong << " rays are met wrongly; the last: " << worst << text);
+  CHECK(wrong == 0);
 }
 
 }  // namespace rondure
