@@ -9,6 +9,8 @@ namespace {
 
 // Halves are told apart to this part of [0, 1]; what noise leaves undecided then is one root.
 constexpr int most_halvings = 40;
+// What noise hides so near an end is told with it.
+constexpr double at_end = 0x1p-24;
 
 struct RootInterval {
   double c[max_degree + 1];
@@ -51,6 +53,15 @@ bool noise_between(const double* c, int n, double noise) {
   return gap == 0;
 }
 
+// Of a polynomial that noise hides at one end alone: how far from there at most. It is above the lower hull
+// of its coefficients, whose first edge is the least steep of those from the end.
+double hidden_at_end(const double* c, int n, double noise, bool high) {
+  const double end = std::fabs(c[high ? n : 0]);
+  double slope = INFINITY;
+  for (int k = 1; k <= n; ++k) slope = std::min(slope, n * (std::fabs(c[high ? n - k : k]) - end) / k);
+  return 2.0 * noise / slope;
+}
+
 }  // namespace
 
 void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& out) noexcept {
@@ -71,14 +82,15 @@ void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& ou
     const RootInterval piece = stack[--top];
     const Signs s = signs_of(piece.c, n, noise);
     if (s.above == n + 1 || s.below == n + 1) continue;
-    const bool alone = s.above + s.below == n && (s.above == 0 || s.below == 0);
-    if (alone && std::fabs(piece.c[0]) <= noise) {  // nothing beyond the end itself
-      propose(piece.low, false, 0.0);
-      continue;
-    }
-    if (alone && std::fabs(piece.c[n]) <= noise) {
-      propose(piece.low + piece.width, false, 0.0);
-      continue;
+    // One end may be zero, and nothing beyond it: but not where the polynomial is so flat there that the
+    // noise hides another root.
+    if (s.above + s.below == n && (s.above == 0 || s.below == 0)) {
+      const bool low = std::fabs(piece.c[0]) <= noise, high = std::fabs(piece.c[n]) <= noise;
+      const double hidden = piece.width * hidden_at_end(piece.c, n, noise, high);
+      if ((low || high) && hidden <= at_end) {
+        propose(piece.low + (high ? piece.width : 0.0), false, hidden);
+        continue;
+      }
     }
     if (s.changes == 1 && noise_between(piece.c, n, noise)) {
       double c[max_degree + 1];

@@ -83,11 +83,22 @@ bool take(Query& q, unsigned surface, int patch, dvec2 uv, const dvec3& point, c
   return false;
 }
 
-// The same for a root on a leaf, `s` being the patch there. True when an occlusion query is answered.
+// Settling (settle.h) may carry a root from its leaf to another's, which has its own: all along a straight
+// side that the ray runs in. The search for the closest hit need not come to the leaf that it is from: so
+// that all searches have the same hits, those before `enter`, the step at which the leaf's box begins, are
+// left out. Beside singular points rounding alone moves roots by 10^-6 of the surface's size, and nobody else
+// may find them.
+bool is_before_leaf(const Query& q, unsigned surface, double step, double enter) {
+  constexpr double room = 0x1p-8;
+  return step + room * size_of(q.surfaces[surface]) * std::sqrt(q.local.inverse_length2) < enter;
+}
+
+// As `take`, for a root on a leaf, `s` being the patch there. True when an occlusion query is answered.
 bool take_root(Query& q, unsigned surface, const Leaf& leaf, const Net& net, const Root& root,
-               const FirstOrder<dvec4>& s, float& far) {
+               const FirstOrder<dvec4>& s, double enter, float& far) {
   const double noise = q.surfaces[surface].compiled->patches[static_cast<std::size_t>(leaf.patch)].noise;
   const SurfaceCrossing at = cross_surface(leaf, net, noise, q.local, root, s);
+  if (is_before_leaf(q, surface, at.crossing.s, enter)) return false;
   const auto normal = [&] { return at.normal; };
   return take(q, surface, leaf.patch, {root.u, root.v}, at.point, normal, at.crossing, far);
 }
@@ -226,7 +237,8 @@ void make_planes(Query& q) {
   search_budget.start();
 }
 
-bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
+// `enter`: the step at which the leaf's box begins, where that is known.
+bool visit_net(Query& q, unsigned surface, unsigned leaf_index, double enter, float& far) {
   const CompiledSurface& compiled = *q.surfaces[surface].compiled;
   if (!q.has_distances) make_planes(q);
   const Leaf& leaf = compiled.set.leaves[leaf_index];
@@ -237,14 +249,16 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
     const NewtonPatch& patch = compiled.patches[static_cast<std::size_t>(leaf.patch)];
     const NewtonVerdict verdict = solve_by_newton(leaf, net, patch, q.local, found, *q.counts);
     if (verdict == NewtonVerdict::root)
-      return take_root(q, surface, leaf, net, found.root, found.surface, far);
+      return take_root(q, surface, leaf, net, found.root, found.surface, -INFINITY, far);
     if (verdict == NewtonVerdict::none) return false;
   }
   // The hierarchy's boxes are padded for the whole scene's size. On a small object in a large scene that lets
   // every ray by; in double the leaf's own box does not. (A cluster's are in double.)
-  if (compiled.cluster.empty() &&
-      !meets_box(q.local, inverse_of(q.local.direction), compiled.set.boxes[leaf_index]))
-    return false;
+  if (compiled.cluster.empty()) {
+    const Span span = span_in_box(q.local, inverse_of(q.local.direction), compiled.set.boxes[leaf_index]);
+    if (!(span.enter <= span.leave)) return false;
+    enter = span.enter;
+  }
   static thread_local std::vector<Root> roots;  // one visit's; kept so that nothing is allocated
   roots.clear();
   if (leaf_index >= ordinary)
@@ -253,7 +267,7 @@ bool visit_net(Query& q, unsigned surface, unsigned leaf_index, float& far) {
     search_budget.spend(surface, q.counts->search,
                         [&] { search_leaf(leaf, net, q.local, roots, *q.counts); });
   for (const Root& root : roots)
-    if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), far)) return true;
+    if (take_root(q, surface, leaf, net, root, net_first(net, root.u, root.v), enter, far)) return true;
   return false;
 }
 
@@ -290,7 +304,7 @@ bool visit_cluster(Query& q, unsigned surface, float& far) {
   double last = INFINITY;
   for (std::size_t k = 0; k < count && met[k].enter <= last; ++k) {
     const double before = q.best.t;
-    if (visit_net(q, surface, met[k].leaf, far)) return true;
+    if (visit_net(q, surface, met[k].leaf, met[k].enter, far)) return true;
     if (q.mode == Mode::closest && q.best && q.best.t != before)
       last = compiled.cluster.last_step(q.local, step_at(end_of(q)));
   }
@@ -308,7 +322,7 @@ bool visit_leaf(Query& q, unsigned surface, unsigned leaf, float& far) noexcept 
   if (const std::size_t leaves = compiled.set.leaves.size(); leaf >= leaves)
     return visit_sphere(q, surface, compiled.spheres[leaf - leaves], far);
   if (!localise(q, surface)) return false;
-  return visit_net(q, surface, leaf, far);
+  return visit_net(q, surface, leaf, -INFINITY, far);
 }
 
 bool visit_shared_leaf(void* pointer, unsigned, unsigned leaf, float& far) noexcept {

@@ -16,9 +16,14 @@ inline dvec3 inverse_of(const dvec3& direction) {
   return {quotient(1.0, direction.x), quotient(1.0, direction.y), quotient(1.0, direction.z)};
 }
 
+// The part of the ray's line within the box, in its own steps: none where `enter` is above `leave`.
+struct Span {
+  double enter, leave;
+};
+
 // `inverse_direction`: of the ray's. In double, with room for its own rounding and for roots that lie
 // beside their leaf by rounding.
-inline bool meets_box(const LocalRay& ray, const dvec3& inverse_direction, const Box& box) {
+inline Span span_in_box(const LocalRay& ray, const dvec3& inverse_direction, const Box& box) {
   double enter = -INFINITY, leave = INFINITY;
   for (int k = 0; k < 3; ++k) {
     const double room =
@@ -31,7 +36,12 @@ inline bool meets_box(const LocalRay& ray, const dvec3& inverse_direction, const
     enter = a > enter ? a : enter;
     leave = b < leave ? b : leave;
   }
-  return enter <= leave;
+  return {enter, leave};
+}
+
+inline bool meets_box(const LocalRay& ray, const dvec3& inverse_direction, const Box& box) {
+  const Span span = span_in_box(ray, inverse_direction, box);
+  return span.enter <= span.leave;
 }
 
 }  // namespace rondure

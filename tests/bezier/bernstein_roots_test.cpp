@@ -129,4 +129,31 @@ TEST_CASE("roots at the ends are found", "[roots]") {
   }
 }
 
+// A parabola's two roots on either side of an end where it is no deeper than the noise: the inner one counts.
+TEST_CASE("Noise at an end does not hide a root beside it", "[roots]") {
+  std::mt19937_64 random(7);
+  int lost = 0, total = 0;
+  std::string worst = "none";
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double root = std::pow(10.0, uniform(random, -8.0, -2.0));
+    const double outside = -root * std::pow(10.0, uniform(random, -2.0, 2.0));
+    std::vector<double> given{root, outside};
+    const int n = 2 + trial % 5;
+    while (static_cast<int>(given.size()) < n) given.push_back(uniform(random, 1.5, 3.0));
+    std::vector<double> c = polynomial(given);
+    const double noise = std::fabs(c[0]) * std::pow(10.0, uniform(random, -1.0, 3.0));
+    const bool high = trial % 2 == 1;
+    if (high) std::reverse(c.begin(), c.end());
+    const double place = high ? 1.0 - root : root;
+    bool found = false;
+    // 1e-9 as promised for simple roots; others lie within what they say that the noise hides.
+    for (const BernsteinRoot& r : roots_of(c, noise))
+      found = found || std::fabs(r.t - place) <= std::max(r.width, 1e-9);
+    ++total, lost += !found;
+    if (!found) worst = fmt::format("degree {}, root {}, the other {}, noise {}", n, place, outside, noise);
+  }
+  INFO(lost << " of " << total << " roots; the last: " << worst);
+  CHECK(lost == 0);
+}
+
 }  // namespace rondure

@@ -10,6 +10,7 @@
 #include "renderer/bezier/triangle_to_tensor.h"
 #include "renderer/intersect/tracer.h"
 #include "tests/catch.h"
+#include "tests/intersect/closed_models.h"
 #include "tests/intersect/random_direction.h"
 #include "tests/soak.h"
 #include "tests/surfaces/build_family.h"
@@ -245,6 +246,47 @@ TEST_CASE("A ray in a plane patch has no isolated hit", "[radial][hits]") {
     CHECK(plane.all({dvec3(-1.0, 2.0 - z, z), dvec3(1.0, -1.0, 0.0)}).empty());
     CHECK(plane.all({dvec3(0.25, 0.75 - z, z) - dvec3(2.0, -2.0, 2e-3), dvec3(1.0, -1.0, 1e-3)}).size() == 1);
   }
+}
+
+// In a plane where patches meet, both roots near a vertex, one in the patches before it and one behind it:
+// in each the polynomial ends between the two, in noise.
+TEST_CASE("A ray in the plane of a seam meets both walls beneath a vertex", "[radial][hits]") {
+  std::mt19937_64 random(12);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const int aimed = static_cast<int>(soaked(10'000, 1'000'000));
+  int wrong = 0;
+  std::string worst = "none";
+  for (const Model& model : {models[0], models[1], models[2]}) {
+    const Tracer tracer({{build_family(model.object), Solver::radial}});
+    const std::vector<Net>& nets = tracer.surfaces()[0].surface.patches;
+    const double band = tangency_band(tracer.surfaces()[0].surface, 1.0);
+    for (int k = 0; k < aimed; ++k) {
+      constexpr dvec2 corners[3] = {{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};
+      const dvec2 at = corners[random() % 3];
+      const dvec3 vertex = net_point(nets[random() % nets.size()], at.x, at.y);
+      // An axis across the vertex's own.
+      const int own = std::fabs(vertex.x) > 0.5 * largest(vertex)   ? 0
+                      : std::fabs(vertex.y) > 0.5 * largest(vertex) ? 1
+                                                                    : 2;
+      dvec3 along(0.0);
+      along[(own + 1 + static_cast<int>(random() % 2)) % 3] = random() % 2 ? 1.0 : -1.0;
+      const double depth = std::pow(10.0, draw(std::log10(10.0 * band), -9.0));
+      const dvec3 direction = along + std::pow(10.0, draw(-17.0, -10.0)) * vertex;
+      const Ray ray{(1.0 - depth) * vertex - draw(1.0, 9.0) * direction, direction};
+      const std::vector<Hit> hits = tracer.all(ray);
+      const Hit closest = tracer.closest(ray);
+      if (hits.size() == 2 && closest.t == hits[0].t && tracer.occluded(ray)) continue;
+      ++wrong;
+      worst = fmt::format(
+          "{}, depth {:.3g}: {} hits, o = ({:.17g}, {:.17g}, {:.17g}), d = ({:.17g}, {:.17g}, {:.17g})",
+          model.name, depth, hits.size(), ray.origin.x, ray.origin.y, ray.origin.z, direction.x, direction.y,
+          direction.z);
+    }
+  }
+  INFO(wrong << " of " << 3 * aimed << " rays are met wrongly; the last: " << worst);
+  CHECK(wrong == 0);
 }
 
 }  // namespace rondure

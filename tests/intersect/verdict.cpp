@@ -72,6 +72,8 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
     }
     return false;
   };
+  // The parameters of 50 digits that a ray in the plane of a side has there are zero but for those.
+  constexpr double oracle_rounding = 0x1p-150;
   // A ray through a singular corner, or in the tangent plane of a vertex, may take more pieces than there is
   // patience for: then nothing is said.
   if (meeting.exhausted) return out;
@@ -79,7 +81,7 @@ Verdict judge(const Surface& surface, const Ray& ray, const std::vector<Hit>& hi
   std::vector<bool> doubtful(found.size(), false);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const oracle::Crossing& c = found[k];
-    const bool beside = c.outside > 0.0;  // within rounding of patches, and in none
+    const bool beside = c.outside > oracle_rounding;  // within rounding of patches, and in none
     const bool start = std::fabs(c.t - ray.t_min) <= doubt || std::fabs(c.t - ray.t_max) <= doubt;
     doubtful[k] = beside || start || c.touches || c.multiplicity != 1 || near_graze(c.t);
     out.in_band = out.in_band || (doubtful[k] && (!beside || start || c.touches || c.multiplicity != 1));
