@@ -187,8 +187,7 @@ void require_clean(const Tally& tally, const std::string& what) {
                         : which == RayClass::extreme_length ? 0.03
                         : which == RayClass::from_surface   ? 0.03
                                                             : 0.002;
-    // One more: a single ray tells nothing of a rate.
-    const double unknown = which == RayClass::axis_aligned ? 0.002 * all + least : 1e-5 * all + 1.0;
+    const double unknown = which == RayClass::axis_aligned ? 0.002 * all + least : 1e-5 * all;
     too_many += static_cast<double>(tally.in_band[k]) > band * all + least;
     too_many += static_cast<double>(tally.undecided[k]) > unknown;
     CHECK(tally.hits[k] > tally.rays[k] / 4);
