@@ -53,8 +53,8 @@ bool noise_between(const double* c, int n, double noise) {
   return gap == 0;
 }
 
-// Of a polynomial that noise hides at one end alone: how far from there at most. It is above the lower hull
-// of its coefficients, whose first edge is the least steep of those from the end.
+// Of a polynomial that noise hides at one end alone, all else being beyond it: how far from there at most. It
+// is above the lower hull of its coefficients, whose first edge is the least steep of those from the end.
 double hidden_at_end(const double* c, int n, double noise, bool high) {
   const double end = std::fabs(c[high ? n : 0]);
   double slope = INFINITY;
@@ -84,10 +84,11 @@ void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& ou
     if (s.above == n + 1 || s.below == n + 1) continue;
     // One end may be zero, and nothing beyond it: but not where the polynomial is so flat there that the
     // noise hides another root.
-    if (s.above + s.below == n && (s.above == 0 || s.below == 0)) {
-      const bool low = std::fabs(piece.c[0]) <= noise, high = std::fabs(piece.c[n]) <= noise;
+    const bool alone = s.above + s.below == n && (s.above == 0 || s.below == 0);
+    const bool low = std::fabs(piece.c[0]) <= noise, high = std::fabs(piece.c[n]) <= noise;
+    if (alone && (low || high)) {
       const double hidden = piece.width * hidden_at_end(piece.c, n, noise, high);
-      if ((low || high) && hidden <= at_end) {
+      if (hidden <= at_end) {
         propose(piece.low + (high ? piece.width : 0.0), false, hidden);
         continue;
       }
@@ -102,11 +103,11 @@ void isolate_roots(int n, const double* scaled, double noise, BernsteinRoots& ou
       propose(piece.low + 0.5 * piece.width, false, 0.5 * piece.width);
       continue;
     }
-    RootInterval &high = stack[top], &low = stack[top + 1];
-    curve_halve(piece.c, n, 1, low.c, high.c);
-    low.width = high.width = 0.5 * piece.width;
-    low.low = piece.low, high.low = piece.low + low.width;
-    low.depth = high.depth = piece.depth + 1;
+    RootInterval &upper = stack[top], &lower = stack[top + 1];
+    curve_halve(piece.c, n, 1, lower.c, upper.c);
+    lower.width = upper.width = 0.5 * piece.width;
+    lower.low = piece.low, upper.low = piece.low + lower.width;
+    lower.depth = upper.depth = piece.depth + 1;
     top += 2;
   }
 }

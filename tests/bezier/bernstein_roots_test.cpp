@@ -154,6 +154,8 @@ TEST_CASE("Noise at an end does not hide a root beside it", "[roots]") {
   }
   INFO(lost << " of " << total << " roots; the last: " << worst);
   CHECK(lost == 0);
+  // In the middle alone, between ends that are alike.
+  CHECK(roots_of({1.0, 0.0, 1.0}, 0.1).count == 0);
 }
 
 }  // namespace rondure
